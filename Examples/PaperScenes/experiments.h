@@ -7,7 +7,7 @@
 
 namespace paper
 {
-/// World frame: the ground is z = 0, z up; object A is 1 high at size 1.
+/// World coordinates: the ground is z = 0, z up; object A is 1 high at size 1.
 struct Viewpoint
 {
   const char* name;

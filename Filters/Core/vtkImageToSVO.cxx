@@ -280,7 +280,7 @@ svo::SourceOctree vtkImageToSVO::Convert(
   const svo::ImageBox box = svo::boxOfExtent(image, image->GetExtent());
   svo::BuildOptions options;
   options.leafGeometry = svo::LeafGeometry::Plane;
-  options.frame = svo::frameOfImage(image);
+  options.transform = svo::transformOfImage(image);
   options.modelLow = box.low;
   options.modelHigh = box.high;
   options.level = this->MaximumLevel > 0 ? this->MaximumLevel : svo::levelOfImage(image, whole);

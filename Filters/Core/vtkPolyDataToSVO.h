@@ -101,10 +101,10 @@ public:
 
   //@{
   /**
-   * Bounds of what the mesh is a part of, in its local frame. The octree's cube is then that of the
-   * whole, so that parts that are converted apart have the voxels that the whole would have. A mesh
-   * that reaches beyond makes the cube larger. Default: low above high on each axis, which means
-   * that the mesh is all there is. Bounds that are not finite are refused, with a warning.
+   * Bounds of what the mesh is a part of, in its local coordinates. The octree's cube is then that
+   * of the whole, so that parts that are converted apart have the voxels that the whole would have.
+   * A mesh that reaches beyond makes the cube larger. Default: low above high on each axis, which
+   * means that the mesh is all there is. Bounds that are not finite are refused, with a warning.
    */
   virtual void SetModelBounds(
     double xMin, double xMax, double yMin, double yMax, double zMin, double zMax);

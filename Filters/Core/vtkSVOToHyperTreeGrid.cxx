@@ -157,12 +157,13 @@ private:
   vtkNew<vtkIdTypeArray> CellIds;
 };
 
-/// True if cells are boxes along the axes of the mesh's frame.
-bool liesAlongAxes(const glm::dmat4& frame)
+/// True if cells are boxes along the axes of the mesh's coordinates.
+bool liesAlongAxes(const glm::dmat4& transform)
 {
   for (int i = 0; i < 3; ++i)
   {
-    if (!(frame[i][i] > 0.0) || frame[i][(i + 1) % 3] != 0.0 || frame[i][(i + 2) % 3] != 0.0)
+    if (!(transform[i][i] > 0.0) || transform[i][(i + 1) % 3] != 0.0 ||
+      transform[i][(i + 2) % 3] != 0.0)
     {
       return false;
     }
@@ -172,7 +173,7 @@ bool liesAlongAxes(const glm::dmat4& frame)
 
 void setCube(const svo::Octree& octree, vtkHyperTreeGrid* grid)
 {
-  const glm::dmat4 frame = octree.frame();
+  const glm::dmat4 transform = octree.transform();
   const svo::Header& h = octree.header();
   const double edge = std::ldexp(h.voxelSize, octree.level());
   grid->SetDimensions(2, 2, 2);
@@ -184,7 +185,8 @@ void setCube(const svo::Octree& octree, vtkHyperTreeGrid* grid)
     vtkNew<vtkDoubleArray> coordinates;
     for (const double at : { h.origin[i], h.origin[i] + edge })
     {
-      coordinates->InsertNextValue(octree.hasFrame() ? frame[i][i] * at + frame[3][i] : at);
+      coordinates->InsertNextValue(
+        octree.hasTransform() ? transform[i][i] * at + transform[3][i] : at);
     }
     (grid->*setters[i])(coordinates);
   }
@@ -226,7 +228,7 @@ int vtkSVOToHyperTreeGrid::RequestData(
     vtkErrorMacro(<< svo::describe(attached, message));
     return 1;
   }
-  if (!liesAlongAxes(octree.frame()))
+  if (!liesAlongAxes(octree.transform()))
   {
     vtkErrorMacro("The octree's cells are turned, mirrored or sheared, which those of a hyper tree "
                   "grid cannot be. vtkSVOToPolyData shows them.");

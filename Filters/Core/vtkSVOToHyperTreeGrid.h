@@ -3,9 +3,9 @@
  * @brief the cells of an octree, with all its levels, as a hyper tree grid
  *
  * The input is a mesh with an octree, from vtkPolyDataToSVO or any source of octrees. The output is
- * a grid of one tree of branching factor 2, the octree's cube, in the mesh's frame: its depths are
- * the octree's levels, empty cells are masked. VTK's filters of hyper tree grids and ParaView's
- * slice, threshold and probe it.
+ * a grid of one tree of branching factor 2, the octree's cube, in the mesh's coordinates: its
+ * depths are the octree's levels, empty cells are masked. VTK's filters of hyper tree grids and
+ * ParaView's slice, threshold and probe it.
  *
  * Cell data: "Level" (unsigned char), 0 for the cube; and "CellId" (vtkIdType), the input's cell
  * that a cell stands for, as of vtkSVOToPolyData; masked cells have -1. The octree of a surface

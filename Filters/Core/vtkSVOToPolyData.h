@@ -4,8 +4,8 @@
  *
  * The input is a mesh with an octree, from vtkPolyDataToSVO. The output is the surface of the
  * octree's voxels, or of the occupied cells of a coarser level: quads that face outwards and share
- * points, in the mesh's frame. A face between two occupied cells is dropped, so that the surface of
- * any set of cells is closed.
+ * points, in the mesh's coordinates. A face between two occupied cells is dropped, so that the
+ * surface of any set of cells is closed.
  *
  * Cell data of the output: "Level" (int), the octree level that was shown, and "CellId"
  * (vtkIdType), the input's cell that a voxel stands for: of the cells near it the nearest one. The

@@ -24,13 +24,13 @@ class vtkSparseVoxelOctree::vtkInternals
 {
 public:
   svo::Octree Octree;
-  glm::dmat4 FromLocal{ 1.0 }; // to the octree's own frame
+  glm::dmat4 FromLocal{ 1.0 }; // to the octree's own coordinates
   double Bounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
 
-  glm::dvec3 toOwnFrame(const double x[3]) const
+  glm::dvec3 toOwn(const double x[3]) const
   {
     const glm::dvec4 p(x[0], x[1], x[2], 1.0);
-    return glm::dvec3(this->Octree.hasFrame() ? this->FromLocal * p : p);
+    return glm::dvec3(this->Octree.hasTransform() ? this->FromLocal * p : p);
   }
 };
 
@@ -56,7 +56,7 @@ bool vtkSparseVoxelOctree::Initialize(vtkPolyData* mesh)
   const svo::Attached attached = svo::openAttachedOctree(mesh, this->Internals->Octree, message);
   if (attached == svo::Attached::Found)
   {
-    this->Internals->FromLocal = glm::inverse(this->Internals->Octree.frame());
+    this->Internals->FromLocal = glm::inverse(this->Internals->Octree.transform());
     return true;
   }
   vtkErrorMacro(<< svo::describe(attached, message));
@@ -101,9 +101,9 @@ void vtkSparseVoxelOctree::GetBounds(double bounds[6])
     bounds[2 * i + 1] =
       octree ? bounds[2 * i] + std::ldexp(octree.header().voxelSize, octree.level()) : -1.0;
   }
-  if (octree && octree.hasFrame())
+  if (octree && octree.hasTransform())
   {
-    const svo::Box box = svo::boxAround(bounds, octree.frame());
+    const svo::Box box = svo::boxAround(bounds, octree.transform());
     for (int i = 0; i < 3; ++i)
     {
       bounds[2 * i] = box.low[i];
@@ -127,8 +127,8 @@ double vtkSparseVoxelOctree::GetVoxelSize()
   {
     return 0.0;
   }
-  const double volume = std::abs(glm::determinant(glm::dmat3(octree.frame())));
-  return octree.header().voxelSize * (octree.hasFrame() ? std::cbrt(volume) : 1.0);
+  const double volume = std::abs(glm::determinant(glm::dmat3(octree.transform())));
+  return octree.header().voxelSize * (octree.hasTransform() ? std::cbrt(volume) : 1.0);
 }
 
 //------------------------------------------------------------------------------
@@ -141,7 +141,7 @@ bool vtkSparseVoxelOctree::IsOccupied(const double x[3], int level)
   }
   const int l = std::min(std::max(level, 0), octree.level());
   const double edge = std::ldexp(octree.header().voxelSize, octree.level() - l);
-  const glm::dvec3 at = this->Internals->toOwnFrame(x);
+  const glm::dvec3 at = this->Internals->toOwn(x);
   glm::ivec3 cell;
   for (int i = 0; i < 3; ++i)
   {
@@ -164,12 +164,12 @@ int vtkSparseVoxelOctree::IntersectWithLine(
   {
     return 0;
   }
-  // Differences first: the mesh may lie far from the origin of its frame.
+  // Differences first: the mesh may lie far from its origin.
   const svo::Header& h = octree.header();
   const glm::dvec3 origin(h.origin[0], h.origin[1], h.origin[2]);
   const double scale = 1.0 / octree.rootEdge();
-  const glm::dvec3 from = this->Internals->toOwnFrame(p1);
-  const glm::dvec3 along = this->Internals->toOwnFrame(p2) - from;
+  const glm::dvec3 from = this->Internals->toOwn(p1);
+  const glm::dvec3 along = this->Internals->toOwn(p2) - from;
   svo::Ray ray;
   ray.origin = 1.0 + (from - origin) * scale;
   ray.direction = along * scale;

@@ -7,9 +7,9 @@
  * the bytes of the octree in its field data, does not change the handle: it has bytes of its own,
  * which all handles and render passes share that open the same array.
  *
- * All coordinates are in the mesh's own frame (not the actor's). The octree divides a cube, see
- * GetBounds(), into 2^level cells along an edge, level 0 to GetNumberOfLevels(); the cells of the
- * last level are the voxels. A cell is occupied if the surface touches it.
+ * All coordinates are in the mesh's own coordinates (not the actor's). The octree divides a cube,
+ * see GetBounds(), into 2^level cells along an edge, level 0 to GetNumberOfLevels(); the cells of
+ * the last level are the voxels. A cell is occupied if the surface touches it.
  *
  * @sa vtkPolyDataToSVO vtkSVOToPolyData
  */
@@ -67,9 +67,9 @@ public:
 
   //@{
   /**
-   * The octree's cube: xmin, xmax, ymin, ymax, zmin, zmax, in the mesh's frame. It encloses the
-   * mesh, which lies in its middle. Where the octree is that of a grid whose voxels are stretched,
-   * turned or sheared (vtkSVOVDBReader), the bounds of what that makes of the cube. An
+   * The octree's cube: xmin, xmax, ymin, ymax, zmin, zmax, in the mesh's coordinates. It encloses
+   * the mesh, which lies in its middle. Where the octree is that of a grid whose voxels are
+   * stretched, turned or sheared (vtkSVOVDBReader), the bounds of what that makes of the cube. An
    * uninitialized handle has VTK's empty bounds (1, -1, 1, -1, 1, -1). The form that returns a
    * pointer points into the handle, valid until it is next called.
    */
@@ -78,8 +78,8 @@ public:
   //@}
 
   /**
-   * Edge of a voxel in the mesh's frame; of a stretched or sheared one the cube root of its volume.
-   * 0 before Initialize().
+   * Edge of a voxel in the mesh's coordinates; of a stretched or sheared one the cube root of its
+   * volume. 0 before Initialize().
    */
   double GetVoxelSize();
 

@@ -4,7 +4,7 @@
  *
  * The input is any polydata that carries an octree: of vtkPolyDataToSVO, or of a source without
  * triangles. The file has a grid "leaves" that masks the octree's leaves (bools, active and true
- * there), which lies where the octree does in the polydata's frame (not the actor's).
+ * there), which lies where the octree does in the polydata's coordinates (not the actor's).
  * vtkSVOVDBReader reads the same leaves again, and any program that uses OpenVDB can.
  *
  * On request there is a level set "surface" as well: a narrow band of distances, negative inside,

@@ -102,8 +102,8 @@ public:
 
   //@{
   /**
-   * North (of the sun path) and up (of the sun path and the sky) in the model's frame. Default
-   * (0, 1, 0) and (0, 0, 1).
+   * North (of the sun path) and up (of the sun path and the sky) in the model's coordinates.
+   * Default (0, 1, 0) and (0, 0, 1).
    */
   vtkSetVector3Macro(North, double);
   vtkGetVector3Macro(North, double);

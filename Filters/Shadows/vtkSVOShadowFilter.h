@@ -14,7 +14,7 @@
  *   CosineWeighted times the cosine of the incidence. Colours, intensities and attenuations of
  *   lights have no part in it: weights say what a light brings.
  *
- * Rays are exact: in each caster's own frame, in double precision, against the triangles
+ * Rays are exact: in each caster's own coordinates, in double precision, against the triangles
  * themselves, which the octree keeps as floats in its cube. Answers can differ from those of exact
  * arithmetic only where a ray passes an edge of a triangle, or ends at a surface, within 2e-6 of
  * the longest side of that caster's bounds. Octrees of planes are met at their planes. The ray of a

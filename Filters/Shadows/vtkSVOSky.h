@@ -55,7 +55,7 @@ public:
 
   //@{
   /**
-   * Up in the model's frame, of any length. Default (0, 0, 1).
+   * Up in the model's coordinates, of any length. Default (0, 0, 1).
    */
   vtkSetVector3Macro(Up, double);
   vtkGetVector3Macro(Up, double);

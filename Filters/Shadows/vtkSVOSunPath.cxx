@@ -19,9 +19,9 @@ vtkStandardNewMacro(vtkSVOSunPath);
 
 namespace
 {
-/// East, north and up in the model's frame; false, after an error, if there is no such frame or
-/// day.
-bool frameOf(vtkSVOSunPath* path, glm::dvec3 (&frame)[3])
+/// East, north and up in the model's coordinates; false, after an error, if these are no axes or
+/// there is no such day.
+bool axesOf(vtkSVOSunPath* path, glm::dvec3 (&axes)[3])
 {
   const int year = path->GetYear(), month = path->GetMonth(), day = path->GetDay();
   if (!svo::isDate(year, month, day))
@@ -36,12 +36,12 @@ bool frameOf(vtkSVOSunPath* path, glm::dvec3 (&frame)[3])
   if (!(sine > 1e-9 * glm::length(n) * glm::length(u)) || !std::isfinite(sine))
   {
     vtkErrorWithObjectMacro(
-      path, "North and up are no frame: they are parallel, zero, or not finite.");
+      path, "North and up are no axes: they are parallel, zero, or not finite.");
     return false;
   }
-  frame[0] = east / sine;
-  frame[2] = glm::normalize(u);
-  frame[1] = glm::cross(frame[2], frame[0]);
+  axes[0] = east / sine;
+  axes[2] = glm::normalize(u);
+  axes[1] = glm::cross(axes[2], axes[0]);
   return true;
 }
 
@@ -70,15 +70,15 @@ svoSetSunMacro(vtkSVOSunPath);
 bool vtkSVOSunPath::GetDirection(double hour, double direction[3])
 {
   direction[0] = direction[1] = direction[2] = 0.0;
-  glm::dvec3 frame[3];
-  if (!frameOf(this, frame))
+  glm::dvec3 axes[3];
+  if (!axesOf(this, axes))
   {
     return false;
   }
   const glm::dvec3 local = localDirection(this, hour);
   for (int i = 0; i < 3; ++i)
   {
-    direction[i] = local.x * frame[0][i] + local.y * frame[1][i] + local.z * frame[2][i];
+    direction[i] = local.x * axes[0][i] + local.y * axes[1][i] + local.z * axes[2][i];
   }
   return local.z > 0.0;
 }
@@ -86,15 +86,15 @@ bool vtkSVOSunPath::GetDirection(double hour, double direction[3])
 //------------------------------------------------------------------------------
 double vtkSVOSunPath::GetElevation(double hour)
 {
-  glm::dvec3 frame[3];
-  return frameOf(this, frame) ? svo::elevationOf(localDirection(this, hour)) : 0.0;
+  glm::dvec3 axes[3];
+  return axesOf(this, axes) ? svo::elevationOf(localDirection(this, hour)) : 0.0;
 }
 
 //------------------------------------------------------------------------------
 double vtkSVOSunPath::GetAzimuth(double hour)
 {
-  glm::dvec3 frame[3];
-  return frameOf(this, frame) ? svo::azimuthOf(localDirection(this, hour)) : 0.0;
+  glm::dvec3 axes[3];
+  return axesOf(this, axes) ? svo::azimuthOf(localDirection(this, hour)) : 0.0;
 }
 
 //------------------------------------------------------------------------------
@@ -105,8 +105,8 @@ int vtkSVOSunPath::AddLights(vtkSVOShadowFilter* filter)
     vtkErrorMacro("There is no filter to add lights to.");
     return 0;
   }
-  glm::dvec3 frame[3];
-  if (!frameOf(this, frame))
+  glm::dvec3 axes[3];
+  if (!axesOf(this, axes))
   {
     return 0;
   }
@@ -137,7 +137,7 @@ int vtkSVOSunPath::AddLights(vtkSVOShadowFilter* filter)
   }
   for (const svo::SunBins::Bin& bin : bins.all())
   {
-    const glm::dvec3 to = bin.sum.x * frame[0] + bin.sum.y * frame[1] + bin.sum.z * frame[2];
+    const glm::dvec3 to = bin.sum.x * axes[0] + bin.sum.y * axes[1] + bin.sum.z * axes[2];
     vtkNew<vtkLight> light;
     light->SetPosition(to.x, to.y, to.z);
     const int index = filter->AddLight(light);

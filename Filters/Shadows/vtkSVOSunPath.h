@@ -6,8 +6,8 @@
  * which is that of NOAA's solar calculator: within 0.01 degrees from 1900 to 2100, refraction
  * apart.
  *
- * Directions are in the frame of a model whose north and up can be set: x is east, y north and z up
- * by default.
+ * Directions are in the coordinates of a model whose north and up can be set: x is east, y north
+ * and z up by default.
  *
  * @sa vtkSVOShadowFilter vtkSVOSky
  */
@@ -61,7 +61,7 @@ public:
 
   //@{
   /**
-   * North and up in the model's frame, of any length; what of north is not level is left out.
+   * North and up in the model's coordinates, of any length; what of north is not level is left out.
    * Default (0, 1, 0) and (0, 0, 1).
    */
   vtkSetVector3Macro(North, double);
@@ -114,9 +114,9 @@ public:
   //@}
 
   /**
-   * The unit direction to the sun at a local hour, in the model's frame. False if the sun's centre
-   * is below the horizon, and, with (0, 0, 0), if the date does not exist or north and up are no
-   * frame (an error).
+   * The unit direction to the sun at a local hour, in the model's coordinates. False if the sun's
+   * centre is below the horizon, and, with (0, 0, 0), if the date does not exist or north and up
+   * are no axes (an error).
    */
   bool GetDirection(double hour, double direction[3]);
 

@@ -15,8 +15,8 @@
  * rasteriser in the same frame, at the right depth. Opaque rasterised surfaces cast shadows as
  * well, and rasterised surfaces receive them. Selection and picking stay VTK's.
  *
- * An octree lives in its mesh's local frame, so an actor can be moved, turned, scaled, mirrored or
- * sheared by any affine matrix without building anything anew.
+ * An octree lives in its mesh's local coordinates, so an actor can be moved, turned, scaled,
+ * mirrored or sheared by any affine matrix without building anything anew.
  *
  * Lights: every light that is switched on casts, but headlights, whose shadows cannot be seen, and
  * of several camera lights (a light kit) only the brightest. SetCastShadow(bool, vtkLight*) says

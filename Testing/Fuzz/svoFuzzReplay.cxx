@@ -169,9 +169,9 @@ void writePlanes(int level, bool framed, const fs::path& folder)
   options.modelHigh = glm::dvec3(0.5);
   if (framed)
   {
-    options.frame[0][0] = -2.0;
-    options.frame[1][0] = 0.5;
-    options.frame[3][2] = 0.1;
+    options.transform[0][0] = -2.0;
+    options.transform[1][0] = 0.5;
+    options.transform[3][2] = 0.1;
   }
   const Slope slope;
   const svo::BuildResult built = svo::build(svo::FieldSource(slope, { 0.0, 1.2, 0.0 }), options);

@@ -1,7 +1,7 @@
 """Files include those of their own room and of lower ones only, modules those of lower modules; of the
 tracer all others see its face only; what lies behind a view's hits sees nothing of how they are found;
-and every room opens with a README.md that names each of its files
-and no other, of which there are 30 at most.
+every room opens with a README.md that names each of its files and no other; and no folder, whatever
+is in it, has more than 30 files.
 
 The order of the modules stands in the CMakeLists.txt of the project, that of the rooms in
 vtksvo_rooms() of each module, lowest first.
@@ -102,18 +102,24 @@ def check_hits(root, places):
 
 
 MOST_FILES = 30  # that somebody can look over
+MADE = {"build", "__pycache__"}  # not the tree's own
+
+
+def check_folders(root):
+    problems, looked_at = [], 0
+    for folder, folders, files in os.walk(root):
+        folders[:] = [name for name in folders if name not in MADE and not name.startswith(".")]
+        looked_at += 1
+        if len(files) > MOST_FILES:
+            problems.append(f"{os.path.relpath(folder, root)} has {len(files)} files: more than {MOST_FILES}")
+    return problems if looked_at > 80 else problems + [f"only {looked_at} folders found"]
 
 
 def check_readmes(root):
     problems = []
     for module in modules_of(root):
-        for room in rooms_of(root, module):
+        for room in filter(None, rooms_of(root, module)):
             folder = os.path.join(module, room)
-            files = [name for name in os.listdir(os.path.join(root, folder)) if "." in name]
-            if len(files) > MOST_FILES:
-                problems.append(f"{folder} has {len(files)} files: more than {MOST_FILES}")
-            if not room:
-                continue
             if not os.path.exists(os.path.join(root, folder, "README.md")):
                 problems.append(f"{folder} has no README.md")
                 continue
@@ -130,7 +136,8 @@ def main(root):
     places, problems = place_files(root)
     if len(places) < 150:
         problems.append(f"only {len(places)} files found")
-    problems += check_includes(root, places) + check_face(root, places) + check_hits(root, places) + check_readmes(root)
+    problems += check_includes(root, places) + check_face(root, places) + check_hits(root, places)
+    problems += check_readmes(root) + check_folders(root)
     for problem in problems:
         print(problem)
     print(f"{len(places)} files, {len(problems)} problems")

@@ -13,7 +13,6 @@ import unittest
 import gui_events
 
 PROGRAMS = sys.argv.pop(1)
-FOLDER = os.path.dirname(os.path.abspath(__file__))
 PLUGIN = os.environ["VTKSVO_PLUGIN"]
 OUTPUT = os.environ["VTKSVO_OUTPUT"]
 SECONDS = 240

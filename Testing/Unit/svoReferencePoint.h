@@ -7,16 +7,16 @@
 namespace svo
 {
 /// `t` is the linear depth of the hit on the ray of pixel (x, y).
-inline SurfacePoint surfacePoint(
-  const SurfaceMatrices& frame, const View& view, double x, double y, double t, Primitive primitive)
+inline SurfacePoint surfacePoint(const SurfaceMatrices& matrices, const View& view, double x,
+  double y, double t, Primitive primitive)
 {
   const glm::dvec3 ray = view.rayDirection(x, y);
   const glm::dvec3 position = view.rayOrigin(x, y) + t * ray;
   const glm::vec3 towards(-ray);
-  const NodeTriangle hit = frame.instance->body->octree.surface()
-    ? triangleOfHit(frame, position, towards, primitive)
+  const NodeTriangle hit = matrices.instance->body->octree.surface()
+    ? triangleOfHit(matrices, position, towards, primitive)
     : NodeTriangle{};
-  return pointOfTriangle(frame, view, position, towards, hit.triangle, hit.at);
+  return pointOfTriangle(matrices, view, position, towards, hit.triangle, hit.at);
 }
 }
 

@@ -58,7 +58,7 @@ void CellQuads::write(const Octree& octree, int level, int pointType, vtkPolyDat
 
   const Header& header = octree.header();
   const double edge = std::ldexp(header.voxelSize, octree.level() - level);
-  const glm::dmat4 frame = octree.frame();
+  const glm::dmat4 transform = octree.transform();
   vtkNew<vtkPoints> outPoints;
   outPoints->SetDataType(pointType);
   outPoints->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
@@ -68,11 +68,11 @@ void CellQuads::write(const Octree& octree, int level, int pointType, vtkPolyDat
     glm::dvec4 p(header.origin[0] + static_cast<double>(key & 0x1fffff) * edge,
       header.origin[1] + static_cast<double>(key >> 21 & 0x1fffff) * edge,
       header.origin[2] + static_cast<double>(key >> 42) * edge, 1.0);
-    p = octree.hasFrame() ? frame * p : p;
+    p = octree.hasTransform() ? transform * p : p;
     outPoints->SetPoint(static_cast<vtkIdType>(i), p.x, p.y, p.z);
   }
-  // A frame that mirrors turns quads inside out.
-  const bool mirrored = glm::determinant(glm::dmat3(frame)) < 0.0;
+  // A transform that mirrors turns quads inside out.
+  const bool mirrored = glm::determinant(glm::dmat3(transform)) < 0.0;
 
   vtkNew<vtkIdTypeArray> connectivity;
   connectivity->SetNumberOfValues(static_cast<vtkIdType>(this->Corners.size()));

@@ -67,8 +67,8 @@ public:
   void reserve(std::size_t quads) { this->Corners.reserve(4 * quads); }
   /// Those faces of a cell that `faces` has bits for.
   void add(const glm::ivec3& cell, int faces);
-  /// Writes points (of VTK's type `pointType`) and polygons of a mesh, in the octree's local frame.
-  /// `sorted` is called when the longer half of the work is done.
+  /// Writes points (of VTK's type `pointType`) and polygons of a mesh, in the octree's local
+  /// coordinates. `sorted` is called when the longer half of the work is done.
   void write(
     const Octree& octree, int level, int pointType, vtkPolyData* mesh,
     const std::function<void()>& sorted = [] {}) const;

@@ -143,32 +143,32 @@ std::array<glm::vec3, 4> pieceOf(const CellPlane& plane)
   return corners;
 }
 
-/// From cells to the local frame.
+/// From cells to the local coordinates.
 struct ToLocal
 {
   glm::dvec3 origin;
   double edge;
-  bool framed;
-  glm::dmat4 frame;
+  bool transformed;
+  glm::dmat4 transform;
   glm::mat3 normals;
 
   ToLocal(const Octree& octree, int level, bool turned)
     : origin(octree.header().origin[0], octree.header().origin[1], octree.header().origin[2])
     , edge(std::ldexp(octree.header().voxelSize, octree.level() - level))
-    , framed(octree.hasFrame())
-    , frame(octree.frame())
-    , normals(glm::transpose(glm::inverse(glm::dmat3(frame))) * (turned ? -1.0 : 1.0))
+    , transformed(octree.hasTransform())
+    , transform(octree.transform())
+    , normals(glm::transpose(glm::inverse(glm::dmat3(transform))) * (turned ? -1.0 : 1.0))
   {
   }
   glm::dvec3 point(const glm::ivec3& cell, const glm::vec3& inCell) const
   {
     const glm::dvec3 x = origin + edge * (glm::dvec3(cell) + 0.5 + glm::dvec3(inCell));
-    return framed ? glm::dvec3(frame * glm::dvec4(x, 1.0)) : x;
+    return transformed ? glm::dvec3(transform * glm::dvec4(x, 1.0)) : x;
   }
   glm::vec3 normal(const glm::vec3& n) const
   {
     const glm::vec3 there = this->normals * n;
-    return framed ? glm::normalize(there) : there;
+    return transformed ? glm::normalize(there) : there;
   }
   /// Whether floats tell points of the cube apart where it lies.
   bool floatsSuffice(int level) const
@@ -181,7 +181,7 @@ struct ToLocal
     {
       largest = std::max({ largest, std::abs(end.x), std::abs(end.y), std::abs(end.z) });
     }
-    const glm::dmat3 axes(frame);
+    const glm::dmat3 axes(transform);
     const double smallest =
       edge * std::min({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
     return largest * std::numeric_limits<float>::epsilon() * Steps < smallest &&
@@ -340,8 +340,8 @@ void makeContour(
   mesh->SetPoints(toLocal.floatsSuffice(level)
       ? pointsOf<float, vtkFloatArray>(cells, built, toLocal, quads, normals)
       : pointsOf<double, vtkDoubleArray>(cells, built, toLocal, quads, normals));
-  // A frame that mirrors turns quads inside out.
-  const bool mirrored = glm::determinant(glm::dmat3(toLocal.frame)) < 0.0;
+  // A transform that mirrors turns quads inside out.
+  const bool mirrored = glm::determinant(glm::dmat3(toLocal.transform)) < 0.0;
   mesh->SetPolys(cellArrayOf(quads, mirrored != turned, built.parallelFor));
   mesh->GetPointData()->SetNormals(normals);
 }

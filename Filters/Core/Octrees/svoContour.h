@@ -10,10 +10,10 @@ class vtkPolyData;
 
 namespace svo
 {
-/// Makes points, normals and quads of a mesh, in the octree's local frame, of an octree of planes.
-/// The first cellsOfLevel() (svoCellPlanes.h) points are the cells' vertices in their order, each
-/// near its cell's plane and in its cell, or, at the border of the box, up to half a cell beside
-/// it. Deterministic.
+/// Makes points, normals and quads of a mesh, in the octree's local coordinates, of an octree of
+/// planes. The first cellsOfLevel() (svoCellPlanes.h) points are the cells' vertices in their
+/// order, each near its cell's plane and in its cell, or, at the border of the box, up to half a
+/// cell beside it. Deterministic.
 ///
 /// `level`: whose cells have a vertex each. `built`: what the octree was built with; the surface
 /// ends at its box, and its border is moved there. `turned`: false where the quads, and the

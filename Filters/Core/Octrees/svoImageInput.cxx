@@ -23,7 +23,7 @@ namespace svo
 {
 namespace
 {
-/// Steps of a point's index -> local frame.
+/// Steps of a point's index -> local coordinates.
 glm::dmat3 stepsOf(vtkImageData* image)
 {
   return glm::dmat3(glm::transpose(glm::make_mat4(image->GetIndexToPhysicalMatrix()->GetData())));
@@ -97,15 +97,15 @@ const char* unfitImage(vtkImageData* image, vtkDataArray* scalars)
     : "the image's spacing is too small to tell points apart so far from the origin";
 }
 
-glm::dmat4 frameOfImage(vtkImageData* image)
+glm::dmat4 transformOfImage(vtkImageData* image)
 {
   if (!isTurned(image))
   {
     return glm::dmat4(1.0);
   }
-  glm::dmat4 frame(glm::transpose(glm::make_mat3(image->GetDirectionMatrix()->GetData())));
-  frame[3] = glm::dvec4(glm::make_vec3(image->GetOrigin()), 1.0);
-  return frame;
+  glm::dmat4 transform(glm::transpose(glm::make_mat3(image->GetDirectionMatrix()->GetData())));
+  transform[3] = glm::dvec4(glm::make_vec3(image->GetOrigin()), 1.0);
+  return transform;
 }
 
 ImageGrid gridOfImage(vtkImageData* image)

@@ -11,7 +11,7 @@ class vtkImageData;
 
 namespace svo
 {
-/// Bounds in the octree's frame.
+/// Bounds in the octree's coordinates.
 struct ImageBox
 {
   glm::dvec3 low, high;
@@ -22,12 +22,12 @@ struct ImageBox
 /// Why the surface of an image cannot be looked for; nullptr if it can.
 const char* unfitImage(vtkImageData* image, vtkDataArray* scalars);
 
-/// The octree's frame. An image with axes of its own (a direction matrix) gets an octree along
-/// these: so the surface ends where the image does. Else it is the local one.
-glm::dmat4 frameOfImage(vtkImageData* image);
+/// The octree's coordinates. An image with axes of its own (a direction matrix) gets an octree
+/// along these: so the surface ends where the image does. Else it is the local one.
+glm::dmat4 transformOfImage(vtkImageData* image);
 
-/// In the octree's frame. Hidden cells (blanked, refined elsewhere, of another process) are those
-/// of the image's own array, which is borrowed.
+/// In the octree's coordinates. Hidden cells (blanked, refined elsewhere, of another process) are
+/// those of the image's own array, which is borrowed.
 ImageGrid gridOfImage(vtkImageData* image);
 
 /// Of what lies between points of the extent, of the image's spacing.

@@ -29,7 +29,7 @@ namespace svo
 {
 /// Calls visit(voxel, point) for each voxel of an octree of planes, by several threads: its number
 /// in the octree's order and the point of its plane that is nearest to its centre, as far as that
-/// lies in the voxel; octree's own frame. `progress`, 0..1, is called on the calling thread;
+/// lies in the voxel; octree's own coordinates. `progress`, 0..1, is called on the calling thread;
 /// returns false where it does.
 VTKSVOCORE_EXPORT bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
   const std::function<bool(double)>& progress,

@@ -21,8 +21,8 @@ namespace
 /// The deepest level of cubes and bounds: some thousand cells.
 constexpr int CoarseLevel = 5;
 
-/// Of the planes, which pass their voxels by half a voxel, in the octree's own frame, as VTK orders
-/// them; cut down to the box that a surface was looked for in.
+/// Of the planes, which pass their voxels by half a voxel, in the octree's own coordinates, as VTK
+/// orders them; cut down to the box that a surface was looked for in.
 void boundPlanes(const Octree& octree, const BuildOptions& options, double bounds[6])
 {
   const int level = std::min(octree.level(), CoarseLevel);

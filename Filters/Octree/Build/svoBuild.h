@@ -19,9 +19,9 @@
 
 namespace svo
 {
-/// A mesh in its local frame, already cut into triangles. Vertices need not be welded, triangles
-/// may be degenerate. Triangles with a point that is not finite, or with a coordinate beyond 1e290,
-/// are dropped and counted.
+/// A mesh in its local coordinates, already cut into triangles. Vertices need not be welded,
+/// triangles may be degenerate. Triangles with a point that is not finite, or with a coordinate
+/// beyond 1e290, are dropped and counted.
 struct TriangleMesh
 {
   const glm::dvec3* points = nullptr;
@@ -34,13 +34,13 @@ struct BuildOptions
 {
   int level = 10; // 1..MaximumLevel
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
-  /// Bounds of what the mesh is a part of, local frame: the cube is then that of the whole, so that
-  /// all parts have the same voxels. Low above high: the mesh is all there is.
+  /// Bounds of what the mesh is a part of, local coordinates: the cube is then that of the whole,
+  /// so that all parts have the same voxels. Low above high: the mesh is all there is.
   glm::dvec3 modelLow{ 1.0 };
   glm::dvec3 modelHigh{ -1.0 };
-  /// From the octree's own frame to the local frame, see FRAMES in svoLayout.h; isFrame() has to
-  /// hold. 1: they are the same. Only where the octree is one of planes.
-  glm::dmat4 frame{ 1.0 };
+  /// From the octree's own coordinates to the local coordinates, see TRANSFORMS in svoLayout.h;
+  /// isTransform() has to hold. 1: they are the same. Only where the octree is one of planes.
+  glm::dmat4 transform{ 1.0 };
   /// The build is refused before it allocates if it is expected to need more than this at its
   /// peak. 0: no limit.
   std::size_t memoryLimit = 0; // bytes

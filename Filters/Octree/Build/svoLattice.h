@@ -36,7 +36,7 @@ inline bool usable(const TriangleMesh& mesh, const glm::uvec3& t)
   return usable(mesh.points[t.x]) && usable(mesh.points[t.y]) && usable(mesh.points[t.z]);
 }
 
-/// local frame -> lattice. A snapped vertex is at most half a unit away on each axis, so with
+/// local coordinates -> lattice. A snapped vertex is at most half a unit away on each axis, so with
 /// voxels grown by a whole unit nothing of the true triangle is outside them.
 struct Lattice
 {

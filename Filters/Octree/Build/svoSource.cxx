@@ -280,10 +280,10 @@ void buildStages(
     throw BuildStopped{ BuildStatus::BadInput,
       "the box to look for a surface in is empty, or not finite" };
   }
-  if (!isFrame(options.frame))
+  if (!isTransform(options.transform))
   {
     throw BuildStopped{ BuildStatus::BadInput,
-      "the octree's frame is not affine, or nearly singular" };
+      "the octree's transform is not affine, or nearly singular" };
   }
   const Cube cube =
     given ? *given : boundingCube(options.modelLow, options.modelHigh, options.level);
@@ -298,16 +298,16 @@ void buildStages(
     starts.size(), 1, 0.75, 16.0, [](std::size_t) { return 1.0; },
     [&](std::size_t i) { cut.visit(starts[i], level, parts[i]); });
   Header header = makeHeader(options, cube);
-  header.framed = options.frame != glm::dmat4(1.0);
+  header.transformed = options.transform != glm::dmat4(1.0);
   header.planeReach = source.planeReach(0.5 * header.voxelSize);
   RawArray<std::uint32_t> planes;
   NodeDepth bricks = joinBricks(parts, header, planes);
   result.data = assemble(std::move(bricks), planes, header, executor);
   result.size = bufferSize(header);
-  if (header.framed != 0)
+  if (header.transformed != 0)
   {
-    const glm::dmat4 rows = glm::transpose(options.frame);
-    std::memcpy(result.data.get() + frameOffset(header), &rows[0][0], FrameBytes);
+    const glm::dmat4 rows = glm::transpose(options.transform);
+    std::memcpy(result.data.get() + transformOffset(header), &rows[0][0], TransformBytes);
   }
 }
 

@@ -60,7 +60,8 @@ public:
 VTKSVOOCTREE_EXPORT BuildResult build(const SurfaceSource& source, const BuildOptions& options);
 
 /// The same in a cube that is given, so that its voxels are those that the source has already. The
-/// source's units and options' box are those of the octree's own frame, see options.frame.
+/// source's units and options' box are those of the octree's own coordinates, see
+/// options.transform.
 VTKSVOOCTREE_EXPORT BuildResult build(
   const SurfaceSource& source, const Cube& cube, const BuildOptions& options);
 }

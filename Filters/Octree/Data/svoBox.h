@@ -1,4 +1,4 @@
-// A box along the axes of a frame of reference.
+// A box along the axes of some coordinates.
 #ifndef svoBox_h
 #define svoBox_h
 
@@ -48,7 +48,7 @@ inline Box boxOf(const double bounds[6])
   return { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
 }
 
-/// Around the corners of a box, in another frame. `bounds`: as VTK and Header have them.
+/// Around the corners of a box, in other coordinates. `bounds`: as VTK and Header have them.
 inline Box boxAround(const double* bounds, const glm::dmat4& matrix)
 {
   const Box box = boxOf(bounds);

@@ -2,12 +2,12 @@
 // builder writes, a .vtp file carries, and both the CPU and a shader read.
 //
 // SPACE
-//   The octree's cube is a cube in the object's local frame, or in a frame of its own (FRAMES,
-//   below), `2^level` voxels along an edge.
-//   A node is a 4x4x4 block: it spans two octree levels at once. Where `level` is odd, the root
-//   block would span half a level too much, so the root cube is twice the octree's cube and only
-//   its lower octant is used. The root cube is mapped to *octree coordinates* [1, 2)^3, where a
-//   float's mantissa bits are the voxel's integer coordinates.
+//   The octree's cube is a cube in the object's local coordinates, or in coordinates of its own
+//   (TRANSFORMS, below), `2^level` voxels along an edge. A node is a 4x4x4 block: it spans two
+//   octree levels at once. Where `level` is odd, the root block would span half a level too much,
+//   so the root cube is twice the octree's cube and only its lower octant is used. The root cube is
+//   mapped to *octree coordinates* [1, 2)^3, where a float's mantissa bits are the voxel's integer
+//   coordinates.
 //
 //        depth           0 (root)        1                 depthCount - 1 (bricks)
 //        block edge      4^depthCount    4^(depthCount-1)  4                          voxels
@@ -33,7 +33,7 @@
 //   |                        |  shared. Of an octree of planes instead the plane of every voxel,
 //   |                        |  in the order of the voxels
 //   +------------------------+ 256 + 16 * nodeCount + 4 * listWords
-//   | frame       128 bytes  |  only if framed is 1, from the next multiple of 8 on
+//   | transform   128 bytes  |  only if transformed is 1, from the next multiple of 8 on
 //   +------------------------+
 //
 //   Node, 16 bytes:
@@ -48,13 +48,14 @@
 //   A surface that is no mesh (where a function or an image takes a value) has no triangles to
 //   refer to. Each of its voxels has a plane of its own instead, whose block is the voxel.
 //
-// FRAMES
+// TRANSFORMS
 //   Voxels of other programs need not be cubes: a grid may be stretched, turned, mirrored or
-//   sheared where it lies. Its octree is one of planes, and stays a cube in a frame of its own,
-//   which the 16 doubles of `frame`, a 4x4 matrix row by row, take to the object's local frame. It
-//   is affine (last row 0 0 0 1), finite and invertible, of a condition of up to
-//   LargestFrameCondition. origin, voxelSize, meshBounds and the planes are in the octree's own
-//   frame then. Where framed is 0 the two frames are one; so it is in files older than frames.
+//   sheared where it lies. Its octree is one of planes, and stays a cube in coordinates of its
+//   own, which the 16 doubles of `transform`, a 4x4 matrix row by row, take to the object's local
+//   ones. It is affine (last row 0 0 0 1), finite and invertible, of a condition of up to
+//   LargestTransformCondition. origin, voxelSize, meshBounds and the planes are in the octree's own
+//   coordinates then. Where transformed is 0 both are the same; so it is in files older than
+//   transforms.
 #ifndef svoLayout_h
 #define svoLayout_h
 
@@ -110,16 +111,17 @@ struct Header
   std::uint64_t listWords;     // 32-bit words in `lists`
   std::uint64_t voxelCount;    // occupied voxels of the last level
   std::uint64_t triangleCount; // of the triangulated mesh; every id in a list is below it
-  double origin[3];            // the cube's lower corner, octree's own frame
-  double voxelSize;            // edge of a voxel, octree's own frame
+  double origin[3];            // the cube's lower corner, octree's own coordinates
+  double voxelSize;            // edge of a voxel, octree's own coordinates
   std::uint64_t signature;     // of the mesh it was built from; 0: not bound to one
   std::uint64_t pointCount;    // of that mesh
   std::uint64_t cellCount;     // of that mesh
-  double meshBounds[6]; // of that mesh, or of what it is a part of; own frame; planes end there
+  double
+    meshBounds[6]; // of that mesh, or of what it is a part of; own coordinates; planes end there
   std::uint32_t depthBegin[MaximumDepths + 1]; // first node of each depth; [depthCount] = nodeCount
-  std::uint32_t leafWords;  // words of `lists` that a voxel has; 0: an octree of triangles
-  std::uint32_t framed;     // 1: there is a frame; else 0. Of octrees of planes only
-  std::uint32_t planeReach; // 1/16 voxel that planes are seen beyond their voxels; 0: LongestReach
+  std::uint32_t leafWords;   // words of `lists` that a voxel has; 0: an octree of triangles
+  std::uint32_t transformed; // 1: there is a transform; else 0. Of octrees of planes only
+  std::uint32_t planeReach;  // 1/16 voxel that planes are seen beyond their voxels; 0: LongestReach
   std::uint32_t reserved[10];
 };
 static_assert(sizeof(Header) == 256, "the header is part of the file format");
@@ -131,11 +133,11 @@ constexpr std::uint32_t PlaneWords = 1;
 /// Largest Header::planeReach, that of tangent planes, and of files older than that word.
 constexpr std::uint32_t LongestReach = 8;
 
-constexpr std::size_t FrameBytes = 16 * sizeof(double);
-constexpr double LargestFrameCondition = 1e9;
+constexpr std::size_t TransformBytes = 16 * sizeof(double);
+constexpr double LargestTransformCondition = 1e9;
 
-/// Where the frame is, or would be.
-constexpr std::size_t frameOffset(const Header& header)
+/// Where the transform is, or would be.
+constexpr std::size_t transformOffset(const Header& header)
 {
   const std::size_t end =
     sizeof(Header) + header.nodeCount * sizeof(Node) + header.listWords * sizeof(std::uint32_t);
@@ -145,8 +147,8 @@ constexpr std::size_t frameOffset(const Header& header)
 /// Bytes of the whole buffer.
 constexpr std::size_t bufferSize(const Header& header)
 {
-  return header.framed != 0
-    ? frameOffset(header) + FrameBytes
+  return header.transformed != 0
+    ? transformOffset(header) + TransformBytes
     : sizeof(Header) + header.nodeCount * sizeof(Node) + header.listWords * sizeof(std::uint32_t);
 }
 }

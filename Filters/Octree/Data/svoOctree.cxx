@@ -25,7 +25,7 @@ bool headerIsSane(const Header& h, std::size_t size)
     h.nodeCount < 1 || h.nodeCount > 0x7fffffffu || h.listWords > 0x7fffffffu ||
     h.triangleCount > 0x7fffffffu ||
     (h.leafWords != 0 && (h.leafWords != PlaneWords || h.triangleCount != 0)) ||
-    h.framed > (h.leafWords != 0 ? 1u : 0u) ||
+    h.transformed > (h.leafWords != 0 ? 1u : 0u) ||
     h.planeReach > (h.leafWords != 0 ? LongestReach : 0u) || size != bufferSize(h))
   {
     return false;
@@ -63,9 +63,9 @@ const char* damageOf(const Octree& octree, std::size_t size, std::uint32_t& long
   {
     return "the octree's header is damaged, or of another version";
   }
-  if (h.framed != 0 && !isFrame(octree.frame()))
+  if (h.transformed != 0 && !isTransform(octree.transform()))
   {
-    return "the octree's frame is not affine and invertible";
+    return "the octree's transform is not affine and invertible";
   }
   if (surface && (octree.hasPlanes() || surface->triangles.size() != h.triangleCount))
   {
@@ -166,7 +166,7 @@ double frobeniusNorm(const glm::dmat3& m)
   return std::sqrt(sum);
 }
 
-bool isFrame(const glm::dmat4& m)
+bool isTransform(const glm::dmat4& m)
 {
   const double* const numbers = glm::value_ptr(m);
   const glm::dmat3 linear(m);
@@ -177,8 +177,8 @@ bool isFrame(const glm::dmat4& m)
   {
     return false;
   }
-  // Scaled first: neither tiny nor huge frames are singular.
-  return frobeniusNorm(glm::inverse(linear / scale)) <= LargestFrameCondition;
+  // Scaled first: neither tiny nor huge scales are singular.
+  return frobeniusNorm(glm::inverse(linear / scale)) <= LargestTransformCondition;
 }
 
 Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
@@ -233,14 +233,14 @@ glm::dmat4 Octree::localToOctree() const
   return m;
 }
 
-glm::dmat4 Octree::frame() const
+glm::dmat4 Octree::transform() const
 {
-  if (!this->hasFrame())
+  if (!this->hasTransform())
   {
     return glm::dmat4(1.0);
   }
   double rows[16];
-  std::memcpy(rows, this->Buffer + frameOffset(this->header()), FrameBytes);
+  std::memcpy(rows, this->Buffer + transformOffset(this->header()), TransformBytes);
   return glm::transpose(glm::make_mat4(rows));
 }
 

@@ -26,8 +26,8 @@ namespace svo
 /// The root of the sum of a matrix's squares.
 VTKSVOOCTREE_EXPORT double frobeniusNorm(const glm::dmat3& m);
 
-/// Whether a matrix may be an octree's frame: see svoLayout.h.
-VTKSVOOCTREE_EXPORT bool isFrame(const glm::dmat4& matrix);
+/// Whether a matrix may be an octree's transform: see svoLayout.h.
+VTKSVOOCTREE_EXPORT bool isTransform(const glm::dmat4& matrix);
 
 /// A handle to an immutable octree: copies share it, and keep the memory that it points into alive.
 class VTKSVOOCTREE_EXPORT Octree
@@ -87,17 +87,18 @@ public:
   /// Bytes of the buffer, the surface and all that is derived from them; 0 of no octree.
   std::size_t bytes() const;
 
-  /// Edge of the root cube (octree coordinates [1, 2)) in the local frame.
+  /// Edge of the root cube (octree coordinates [1, 2)) in the local coordinates.
   double rootEdge() const
   {
     return this->header().voxelSize * static_cast<double>(1u << this->rootBits(this->level()));
   }
-  /// True if the octree has a frame of its own: what is said below of the local frame holds there.
-  bool hasFrame() const { return this->header().framed != 0; }
-  /// The octree's own frame -> the local frame of the object; affine, invertible, 1 without a
-  /// frame of its own. Whoever leaves octree coordinates for the object's applies it.
-  glm::dmat4 frame() const;
-  /// local frame -> octree coordinates: x -> 1 + (x - origin) / rootEdge. Affine.
+  /// True if the octree has coordinates of its own: what is said below of local ones holds of
+  /// these.
+  bool hasTransform() const { return this->header().transformed != 0; }
+  /// The octree's own coordinates -> the local coordinates of the object; affine, invertible, 1 if
+  /// they are one. Whoever leaves octree coordinates for the object's applies it.
+  glm::dmat4 transform() const;
+  /// local coordinates -> octree coordinates: x -> 1 + (x - origin) / rootEdge. Affine.
   glm::dmat4 localToOctree() const;
 
   /// True if `cell` (integer coordinates at `level`, 0..level()) is occupied. False outside.

@@ -12,7 +12,7 @@
 namespace svo
 {
 /// One ray, x(t) = origin + t * direction for t in [tMin, tMax]. The direction is not normalised:
-/// t is the same number in every frame that an affine map leads to.
+/// t is the same number in all coordinates that an affine map leads to.
 struct Ray
 {
   glm::dvec3 origin;

@@ -32,7 +32,7 @@ namespace svo
 struct ImageGrid
 {
   glm::ivec3 points;  // at least 2 along each axis
-  glm::dmat4 toIndex; // local frame -> continuous indices from 0; affine
+  glm::dmat4 toIndex; // local coordinates -> continuous indices from 0; affine
   /// Of each cell, borrowed: those with one of the hidden marks have no surface. nullptr: none.
   const unsigned char* cellMarks = nullptr;
   unsigned char hiddenMarks = 0;

@@ -42,11 +42,11 @@ vtkSmartPointer<vtkDataArray> valuesAtLeaves(const openvdb::GridBase& grid,
     const int components = std::is_arithmetic_v<ValueT> ? 1 : 3;
     values->SetNumberOfComponents(components);
     values->SetNumberOfTuples(static_cast<vtkIdType>(built.octree.header().voxelCount));
-    const glm::dmat4 frame = built.octree.frame();
+    const glm::dmat4 toLocal = built.octree.transform();
     const bool done = forEachLeaf(built.octree, parallelFor, progress,
       [&](std::size_t leaf, const glm::dvec3& own)
       {
-        const glm::dvec3 local(frame * glm::dvec4(own, 1.0));
+        const glm::dvec3 local(toLocal * glm::dvec4(own, 1.0));
         const openvdb::Vec3d index = typed.worldToIndex({ local.x, local.y, local.z });
         constexpr double Farthest = 1 << 30; // far beyond it a grid has its background
         const glm::dvec3 at =

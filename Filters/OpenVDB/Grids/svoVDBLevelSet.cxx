@@ -278,7 +278,7 @@ openvdb::FloatGrid::Ptr levelSetOf(const Octree& octree, vtkPolyData* mesh, doub
   const std::function<bool(double)>& progress, std::string& message)
 {
   message.clear();
-  if (!keepsAngles(octree.frame()))
+  if (!keepsAngles(octree.transform()))
   {
     message = "a level set needs voxels that are cubes, and the octree's are stretched or sheared";
     return nullptr;

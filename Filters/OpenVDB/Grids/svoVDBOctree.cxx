@@ -223,7 +223,7 @@ SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* 
   {
     return { BuildStatus::BadInput, 0, "the grid has a frustum map, and that is not affine" };
   }
-  if (!isFrame(world))
+  if (!isTransform(world))
   {
     return { BuildStatus::BadInput, 0, "the grid's map is not finite, or cannot be inverted" };
   }
@@ -260,7 +260,7 @@ SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* 
   }
   else
   {
-    build.frame = world;
+    build.transform = world;
   }
   build.modelLow = cube.origin;
   build.modelHigh = cube.origin + cube.edge;

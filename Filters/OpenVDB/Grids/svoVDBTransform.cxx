@@ -47,7 +47,7 @@ openvdb::math::Transform::Ptr transformOf(const Octree& octree)
   using openvdb::math::Transform;
   const Header& h = octree.header();
   const glm::dvec3 first = glm::dvec3(h.origin[0], h.origin[1], h.origin[2]) + 0.5 * h.voxelSize;
-  if (!octree.hasFrame())
+  if (!octree.hasTransform())
   {
     Transform::Ptr transform = Transform::createLinearTransform(h.voxelSize);
     transform->postTranslate({ first.x, first.y, first.z });
@@ -55,7 +55,7 @@ openvdb::math::Transform::Ptr transformOf(const Octree& octree)
   }
   glm::dmat4 own(h.voxelSize);
   own[3] = glm::dvec4(first, 1.0);
-  const glm::dmat4 matrix = octree.frame() * own;
+  const glm::dmat4 matrix = octree.transform() * own;
   return Transform::createLinearTransform(openvdb::math::Mat4d(glm::value_ptr(matrix)));
 }
 }

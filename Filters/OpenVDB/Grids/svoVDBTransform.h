@@ -16,14 +16,14 @@ class Octree;
 bool indexToWorld(const openvdb::math::Transform& transform, glm::dmat4& matrix);
 
 /// True if the matrix moves and scales by the same positive factor along all axes, and does nothing
-/// else: then an octree needs no frame of its own.
+/// else: then an octree needs no transform.
 bool onlyMovesAndScales(const glm::dmat4& matrix);
 
 /// True if the matrix leaves angles as they are: distances in it are a factor of those before.
 bool keepsAngles(const glm::dmat4& matrix);
 
 /// The transform of a grid whose voxel (i, j, k) is that of an octree: from the octree's voxels to
-/// the local frame of the mesh that carries it.
+/// the local coordinates of the mesh that carries it.
 openvdb::math::Transform::Ptr transformOf(const Octree& octree);
 }
 

@@ -21,9 +21,9 @@ namespace svo
 class CellSamples : public Samples
 {
 public:
-  /// `cells`: of each triangle, not descending. The mesh is in a frame that `toWorld` takes to the
-  /// world, and outlives this object. Cells without an area, or with points that are not finite,
-  /// have no samples and are in no piece.
+  /// `cells`: of each triangle, not descending. The mesh is in coordinates that `toWorld` takes to
+  /// the world, and outlives this object. Cells without an area, or with points that are not
+  /// finite, have no samples and are in no piece.
   CellSamples(const TriangleMesh& mesh, const std::vector<std::uint32_t>& cells, int samplesPerCell,
     const glm::dmat4& toWorld);
 

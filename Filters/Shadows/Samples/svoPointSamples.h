@@ -15,9 +15,9 @@ namespace svo
 class PointSamples : public Samples
 {
 public:
-  /// `normals`: one a point, in the mesh's frame, of any length; where it is empty they are the
-  /// mean of the triangles around a point, weighted by area, and 0 where there are none. The mesh
-  /// outlives this object. Points that are not finite are in no piece.
+  /// `normals`: one a point, in the mesh's coordinates, of any length; where it is empty they are
+  /// the mean of the triangles around a point, weighted by area, and 0 where there are none. The
+  /// mesh outlives this object. Points that are not finite are in no piece.
   PointSamples(
     const TriangleMesh& mesh, std::vector<glm::dvec3> normals, const glm::dmat4& toWorld);
 
@@ -31,7 +31,7 @@ public:
 
 private:
   TriangleMesh Mesh;
-  std::vector<glm::dvec3> Normals; // the mesh's frame
+  std::vector<glm::dvec3> Normals; // the mesh's coordinates
   glm::dmat4 ToWorld;
   glm::dmat3 NormalToWorld;
   std::vector<std::uint32_t> Order;

@@ -7,7 +7,7 @@
 // coordinates; (root / 4096, root % 4096, depths, opacity, or -1 - n: what follows from 8 n on in
 // svoAlphas; svoCasterAlphas.h); and of octrees of planes (lower corner of
 // what they show, svoEnds::reach), (upper corner, how far planes may lie
-// over what VTK draws in their place), octree coordinates and voxels. Boxes are in a frame of their own, svoViewToTree.
+// over what VTK draws in their place), octree coordinates and voxels. Boxes are in coordinates of their own, svoViewToTree.
 //
 // svoOctreeWalk.glsl and svoColorAlpha.glsl come before it, and the constants svoLightCount and svoDoubtfulSine.
 uniform samplerBuffer svoCasters;

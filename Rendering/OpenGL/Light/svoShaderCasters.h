@@ -53,7 +53,7 @@ private:
   std::vector<CasterInMemory> Known;
   std::vector<double> Gaps; // from their surfaces to where floats have a ray begin, world
   bool Planes = false;
-  glm::dvec3 Centre{ 0.0 }; // of the tree's frame, world
+  glm::dvec3 Centre{ 0.0 }; // of the tree's coordinates, in the world
   std::vector<CasterNode> Tree;
   glm::dmat4 WorldToView{ 0.0 }; // that was sent
   BufferTexture Texels{ BufferTexture::Texel::FourFloats };

@@ -34,16 +34,16 @@ void append(const Instance& caster, const glm::vec2& first, std::vector<float>& 
   {
     numbers.push_back(detail::alphaAt(caster.body->attributes.colorTexture, i));
   }
-  const SurfaceMatrices frame(caster);
+  const SurfaceMatrices matrices(caster);
   const Surface* surface = caster.body->octree.surface();
   for (std::uint32_t i = 0; i < countOf(caster.body->octree); ++i)
   {
     if (!surface)
     {
-      numbers.push_back(detail::alphaOfPlane(frame, i, glm::dvec3(0.0)));
+      numbers.push_back(detail::alphaOfPlane(matrices, i, glm::dvec3(0.0)));
       continue;
     }
-    const TriangleLook look(frame, i);
+    const TriangleLook look(matrices, i);
     for (int axis = 0; axis < (texels > 0 ? 2 : 1); ++axis)
     {
       for (int corner = 0; corner < 3; ++corner)

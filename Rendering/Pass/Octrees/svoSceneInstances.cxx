@@ -86,21 +86,21 @@ void writeFrame(SceneSurface& surface, const WrittenSurface& as, Instance* first
   }
 }
 
-/// What comes from the prop, and from the octree's own frame.
+/// What comes from the prop, and from the octree's own coordinates.
 void writeProp(const SceneSurface& surface, const Instance* whole, Instance* first)
 {
   const Instance& from = surface.instance;
   const Octree& octree = from.body->octree;
-  const bool framed = octree && octree.hasFrame();
-  const glm::dmat4 frame = framed ? octree.frame() : glm::dmat4(1.0);
+  const bool transformed = octree && octree.hasTransform();
+  const glm::dmat4 toLocal = transformed ? octree.transform() : glm::dmat4(1.0);
   if (!surface.copies)
   {
     if (whole)
     {
       *first = *whole;
     }
-    // To the tracer the octree's own frame is the object's.
-    first->localToWorld = framed ? from.localToWorld * frame : from.localToWorld;
+    // To the tracer the octree's own coordinates are the object's.
+    first->localToWorld = transformed ? from.localToWorld * toLocal : from.localToWorld;
     return;
   }
   for (const GlyphCopy& copy : surface.copies->copies)
@@ -117,7 +117,7 @@ void writeProp(const SceneSurface& surface, const Instance* whole, Instance* fir
       one.id = scatter(from.id + static_cast<std::uint64_t>(copy.point));
     }
     one.localToWorld = from.localToWorld * glm::dmat4(copy.place);
-    one.localToWorld = framed ? one.localToWorld * frame : one.localToWorld;
+    one.localToWorld = transformed ? one.localToWorld * toLocal : one.localToWorld;
   }
 }
 
@@ -160,7 +160,7 @@ bool writeInstances(std::vector<PropSurfaces>& props, Stage stage, std::vector<I
       const std::size_t many = surface.count();
       WrittenSurface now = wanted(prop, surface, stage);
       now.place = place;
-      // Another octree may have another frame.
+      // Another octree may have another toLocal.
       const bool whole = prop.fresh || surface.written.place != place || place + many > before ||
         (surface.bringsOctree && surface.written.octree != now.octree);
       Instance* const first = instances.data() + place;

@@ -19,7 +19,7 @@ struct RoundShapes
   /// What a radius is.
   enum class Width
   {
-    Local, // a length in the frame of the input, which the actor's matrix scales
+    Local, // a length in the input's coordinates, which the actor's matrix scales
     World, // a length in the world, whatever the actor's matrix is
     Pixels // so many pixels at the shape's place
   };

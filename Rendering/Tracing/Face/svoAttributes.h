@@ -23,7 +23,7 @@ enum class Association
 /// Arrays of the mesh that the look needs. Null where there are none.
 struct Attributes
 {
-  const float* normals = nullptr; // 3 components, local frame, one per `normalAssociation`
+  const float* normals = nullptr; // 3 components, local coordinates, one per `normalAssociation`
   Association normalAssociation = Association::None;
   const unsigned char* colors = nullptr; // RGBA, mapped through the lookup table
   Association colorAssociation = Association::None;
@@ -36,7 +36,8 @@ struct Attributes
   std::uint64_t version = 0;
 };
 
-/// The mesh's own points, local frame, in the type that the mesh has them in. Neither: unknown.
+/// The mesh's own points, local coordinates, in the type that the mesh has them in. Neither:
+/// unknown.
 struct MeshPoints
 {
   const float* floats = nullptr;

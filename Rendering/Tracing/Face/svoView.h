@@ -44,7 +44,7 @@ inline PixelRect around(const PixelRect& a, const PixelRect& b)
 ///
 /// and the ray parameter t is the linear depth: distance from the eye plane along the view axis,
 /// in world units. A perspective view has originX = originY = 0, a parallel one directionX =
-/// directionY = 0. t is affine-invariant, so the same number in every object's frame.
+/// directionY = 0. t is affine-invariant, so the same number in every object's coordinates.
 struct VTKSVOTRACING_EXPORT View
 {
   glm::dvec3 origin{ 0.0 }, originX{ 0.0 }, originY{ 0.0 };

@@ -3,7 +3,7 @@
 // points of a tile (svoTileLighting.cxx) call it, and become vectors; the tests' reference calls it
 // for one point.
 //
-// Frame of reference: the world's axes and unit of length; points are ways from the eye, or from a
+// Coordinates: the world's axes and unit of length; points are ways from the eye, or from a
 // lamp, whose rounding does not grow with how far the world's origin is.
 #ifndef svoLightingLane_h
 #define svoLightingLane_h

@@ -44,7 +44,7 @@ double powerOfTwo(double x)
 /// World -> a view at `eye` that looks along `direction`.
 glm::dmat4 lookAlong(const glm::dvec3& eye, const glm::dvec3& direction)
 {
-  // The axis least along the direction, so that the frame does not spin with it.
+  // The axis least along the direction, so that the view does not spin with it.
   const glm::dvec3 a = glm::abs(direction);
   const glm::dvec3 up = a.y <= a.x && a.y <= a.z ? glm::dvec3(0, 1, 0)
     : a.z <= a.x                                 ? glm::dvec3(0, 0, 1)

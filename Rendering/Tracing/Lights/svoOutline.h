@@ -20,10 +20,10 @@ namespace svo
 struct Outline
 {
   glm::dmat4 localToWorld{ 1.0 };
-  Box cube{ glm::dvec3(0.0), glm::dvec3(0.0) }; // the octree's, local frame
+  Box cube{ glm::dvec3(0.0), glm::dvec3(0.0) }; // the octree's, local coordinates
   Box mesh;                // the mesh's own; empty where the octree does not know it
-  double voxelSize;        // local frame; 0: there is no octree yet, and the cube is the box
-  double smallestVoxel;    // of the deepest octree that the mesh may get, local frame
+  double voxelSize;        // local coordinates; 0: there is no octree yet, and the cube is the box
+  double smallestVoxel;    // of the deepest octree that the mesh may get, local coordinates
   double pixelError;       // Instance::pixelError
   std::uint64_t signature; // of the mesh
   std::int32_t level;

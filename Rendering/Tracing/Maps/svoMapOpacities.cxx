@@ -14,13 +14,13 @@ void MapOpacities::find(
   const std::uint64_t known = all ? 0 : this->Of;
   this->Of = map.version;
   this->Texels.resize(64 * depth.tiles());
-  std::vector<SurfaceMatrices> frames(scene.instances.size());
+  std::vector<SurfaceMatrices> matrices(scene.instances.size());
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
     const Instance& instance = scene.instances[i];
     if (instance.castShadow && instance.mappedOpacity && instance.body->octree)
     {
-      frames[i] = SurfaceMatrices(instance);
+      matrices[i] = SurfaceMatrices(instance);
     }
   }
   const auto opacityAt = [&](std::size_t tile, int i)
@@ -40,7 +40,7 @@ void MapOpacities::find(
     const glm::dvec3 ray = view.rayDirection(x, y);
     const double t = map.base(caster) + static_cast<double>(depth.t[64 * tile + i]);
     return instance.opacity *
-      surfaceAlpha(frames[caster], view.rayOrigin(x, y) + t * ray, -glm::vec3(ray),
+      surfaceAlpha(matrices[caster], view.rayOrigin(x, y) + t * ray, -glm::vec3(ray),
         depth.primitive[64 * tile + i]);
   };
   forEach(parallelFor, depth.tiles(), 64,

@@ -37,7 +37,7 @@ void samplePatch(const ShadedScene& shaded, const Lighting& lighting, const Patc
 {
   TilePatch& patch = scratch.patch;
   const SampledPlanes& planes = images.sampled();
-  lookAtPatch(points.frame(patch.instance), patch, scratch.triangles);
+  lookAtPatch(points.matrices(patch.instance), patch, scratch.triangles);
   images.put(patch);
   scratch.sums->first = images.firstSample();
   for (std::size_t l = 0; l < lighting.lights.size(); ++l)

@@ -7,10 +7,10 @@ namespace svo
 {
 void PatchShadows::prepare(const Scene& scene, const Hits& eye)
 {
-  this->Frames.clear();
+  this->Matrices.clear();
   this->Smooth.clear();
   this->Errors.clear();
-  this->Frames.reserve(scene.instances.size());
+  this->Matrices.reserve(scene.instances.size());
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
     const Instance& instance = scene.instances[i];
@@ -18,7 +18,7 @@ void PatchShadows::prepare(const Scene& scene, const Hits& eye)
     const LeafGeometry geometry = eye.instances.leafGeometry(static_cast<std::uint32_t>(i));
     const bool placed = eye.instances.placed(static_cast<std::uint32_t>(i));
     const bool seen = !eye.instances.rect(static_cast<std::uint32_t>(i)).empty();
-    this->Frames.push_back(seen ? SurfaceMatrices(instance) : SurfaceMatrices());
+    this->Matrices.push_back(seen ? SurfaceMatrices(instance) : SurfaceMatrices());
     this->Smooth.push_back(instance.body->octree && isSmooth(instance));
     this->Errors.push_back(instance.body->octree
         ? PointErrors{ worldMapError(instance, geometry, level, placed),
@@ -44,7 +44,7 @@ void PatchShadows::findTerminator(const LightShadow& shadow, const Light& light,
   {
     return;
   }
-  SmoothTriangles triangles(this->Frames[patch.instance]);
+  SmoothTriangles triangles(this->Matrices[patch.instance]);
   eachBit(asked,
     [&](int i)
     {

@@ -24,7 +24,7 @@ public:
   void prepare(const Scene& scene, const Hits& eye);
 
   /// Of an instance that is seen.
-  const SurfaceMatrices& frame(std::uint32_t instance) const { return this->Frames[instance]; }
+  const SurfaceMatrices& matrices(std::uint32_t instance) const { return this->Matrices[instance]; }
 
   /// What a thread needs to look at up to 64 points, and to ask for them.
   struct Scratch
@@ -56,7 +56,7 @@ private:
     std::uint64_t dark, Scratch& scratch) const;
 
   // By index into Scene::instances.
-  std::vector<SurfaceMatrices> Frames;
+  std::vector<SurfaceMatrices> Matrices;
   std::vector<std::uint8_t> Smooth; // isSmooth()
   std::vector<PointErrors> Errors;  // of the instance's leaves as the eye sees them
 };

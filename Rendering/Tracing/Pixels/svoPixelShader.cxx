@@ -62,7 +62,7 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
   const Lighting& lighting = lit.lighting;
   TilePatch& patch = scratch.patch;
   const Instance& instance = lit.shaded.scene.instances[patch.instance];
-  lookAtPatch(this->Points.frame(patch.instance), patch, scratch.triangles);
+  lookAtPatch(this->Points.matrices(patch.instance), patch, scratch.triangles);
   std::fill_n(scratch.darkness, TilePatch::Most, Darkness(0));
   const bool underSky = instance.material.lighting && lit.shaded.shadows.sky();
   const bool isLit = instance.material.lighting && (!lighting.lights.empty() || underSky);

@@ -42,45 +42,45 @@ inline float alphaOfTriangle(
 
 /// At `at`, octree coordinates.
 inline float alphaOfTriangle(
-  const SurfaceMatrices& frame, Primitive primitive, const glm::dvec3& at)
+  const SurfaceMatrices& matrices, Primitive primitive, const glm::dvec3& at)
 {
-  const TriangleLook look(frame, primitive);
+  const TriangleLook look(matrices, primitive);
   return alphaOfTriangle(
-    look, *frame.instance->body->octree.surface(), primitive, look.weights(at));
+    look, *matrices.instance->body->octree.surface(), primitive, look.weights(at));
 }
 
 /// Of an octree of planes.
 inline float alphaOfPlane(
-  const SurfaceMatrices& frame, Primitive primitive, const glm::dvec3& position)
+  const SurfaceMatrices& matrices, Primitive primitive, const glm::dvec3& position)
 {
-  const Attributes& attributes = frame.instance->body->attributes;
+  const Attributes& attributes = matrices.instance->body->attributes;
   if (!attributes.colors || attributes.colorAssociation != Association::Leaf)
   {
     return 1.0f;
   }
   const std::uint32_t plane = primitive & NodePrimitive
-    ? nearestVoxel(
-        frame.instance->body->octree, primitive & ~NodePrimitive, frame.toOctree.point(position))
+    ? nearestVoxel(matrices.instance->body->octree, primitive & ~NodePrimitive,
+        matrices.toOctree.point(position))
     : primitive;
   return alphaAt(attributes.colors, plane);
 }
 }
 
 /// 0..1; 1 where the surface has no colours. `towards`, to where the ray comes from: world.
-inline float surfaceAlpha(const SurfaceMatrices& frame, const glm::dvec3& position,
+inline float surfaceAlpha(const SurfaceMatrices& matrices, const glm::dvec3& position,
   const glm::vec3& towards, Primitive primitive)
 {
-  const Octree& octree = frame.instance->body->octree;
+  const Octree& octree = matrices.instance->body->octree;
   if (octree.hasPlanes())
   {
-    return detail::alphaOfPlane(frame, primitive, position);
+    return detail::alphaOfPlane(matrices, primitive, position);
   }
   if (!octree.surface())
   {
     return 1.0f;
   }
-  const NodeTriangle hit = triangleOfHit(frame, position, towards, primitive);
-  return glm::clamp(detail::alphaOfTriangle(frame, hit.triangle, hit.at), 0.0f, 1.0f);
+  const NodeTriangle hit = triangleOfHit(matrices, position, towards, primitive);
+  return glm::clamp(detail::alphaOfTriangle(matrices, hit.triangle, hit.at), 0.0f, 1.0f);
 }
 }
 

@@ -6,19 +6,19 @@ namespace svo
 // 12
 // (-ftree-slp-vectorize) leaves the rounding out. Here `towards` is read as the floats that it is,
 // whether they come from a tile or have just been computed.
-NodeTriangle triangleOfHit(const SurfaceMatrices& frame, const glm::dvec3& position,
+NodeTriangle triangleOfHit(const SurfaceMatrices& matrices, const glm::dvec3& position,
   const glm::vec3& towards, Primitive primitive)
 {
   if (!(primitive & NodePrimitive))
   {
-    return { primitive, frame.toOctree.point(position), true };
+    return { primitive, matrices.toOctree.point(position), true };
   }
-  NodeTriangle picked = pickTriangle(frame, primitive & ~NodePrimitive, position, towards);
+  NodeTriangle picked = pickTriangle(matrices, primitive & ~NodePrimitive, position, towards);
   if (!picked.faces)
   {
     NodeTriangle* one[] = { &picked };
-    const glm::dvec3 local = frame.toOctree.vector(glm::dvec3(towards));
-    settleTriangles(frame.instance->body->octree, one, &local, 1);
+    const glm::dvec3 local = matrices.toOctree.vector(glm::dvec3(towards));
+    settleTriangles(matrices.instance->body->octree, one, &local, 1);
   }
   return picked;
 }

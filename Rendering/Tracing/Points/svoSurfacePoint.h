@@ -70,34 +70,34 @@ inline glm::vec3 normalized(const glm::vec3& v, const glm::vec3& otherwise)
 }
 
 /// The triangle of a node; see pickTriangle(). `position` and `towards`, to the viewer: world.
-inline NodeTriangle pickTriangle(const SurfaceMatrices& frame, std::uint32_t node,
+inline NodeTriangle pickTriangle(const SurfaceMatrices& matrices, std::uint32_t node,
   const glm::dvec3& position, const glm::vec3& towards)
 {
-  return pickTriangle(frame.instance->body->octree, node, frame.toOctree.point(position),
-    frame.toOctree.vector(glm::dvec3(towards)),
+  return pickTriangle(matrices.instance->body->octree, node, matrices.toOctree.point(position),
+    matrices.toOctree.vector(glm::dvec3(towards)),
     [&](const glm::vec3& n)
-    { return glm::dot(detail::normalized(frame.windingMatrix * n, -towards), towards); });
+    { return glm::dot(detail::normalized(matrices.windingMatrix * n, -towards), towards); });
 }
 
-/// What the points of a triangle share; the octree of `frame` has a surface.
+/// What the points of a triangle share; the octree of `matrices` has a surface.
 struct TriangleLook
 {
-  TriangleLook(const SurfaceMatrices& frame, Primitive primitive)
-    : attributes(frame.instance->body->attributes)
+  TriangleLook(const SurfaceMatrices& matrices, Primitive primitive)
+    : attributes(matrices.instance->body->attributes)
   {
-    assert(frame.instance->body->octree.surface());
-    const Surface& surface = *frame.instance->body->octree.surface();
+    assert(matrices.instance->body->octree.surface());
+    const Surface& surface = *matrices.instance->body->octree.surface();
     assert(primitive < surface.triangles.size());
     const glm::uvec3 triangle = surface.triangles[primitive];
     const std::uint32_t cell = surface.cells.empty() ? primitive : surface.cells[primitive];
     a = surface.points[triangle.x];
     e1 = surface.points[triangle.y] - a;
     e2 = surface.points[triangle.z] - a;
-    winding = frame.windingMatrix * glm::cross(e1, e2);
+    winding = matrices.windingMatrix * glm::cross(e1, e2);
     normal = attributes.normals && attributes.normalAssociation == Association::Cell
-      ? frame.normalMatrix * detail::vectorAt(attributes.normals, cell)
+      ? matrices.normalMatrix * detail::vectorAt(attributes.normals, cell)
       : winding;
-    smooth = !frame.instance->material.flat && attributes.normals &&
+    smooth = !matrices.instance->material.flat && attributes.normals &&
       attributes.normalAssociation == Association::Point;
     textured = attributes.colorCoordinates && attributes.colorTextureSize > 0;
     const Association colored =
@@ -150,16 +150,16 @@ struct TriangleLook
 /// Whether the normal of a point is turned to the side that VTK's shaders light, which is not
 /// always the one that its ray sees: VTK's rule for facets without normals knows nothing of sheared
 /// projections, and the rule for others calls the front of a mirrored picture its back.
-inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const glm::dvec3& position,
-  const glm::vec3& facet)
+inline bool shadersTurn(const SurfaceMatrices& matrices, const View& view,
+  const glm::dvec3& position, const glm::vec3& facet)
 {
-  const Attributes& attributes = frame.instance->body->attributes;
+  const Attributes& attributes = matrices.instance->body->attributes;
   if (view.plain)
   {
     return false;
   }
   if (attributes.normals &&
-    (!frame.instance->material.flat || attributes.normalAssociation == Association::Cell))
+    (!matrices.instance->material.flat || attributes.normalAssociation == Association::Cell))
   {
     return view.mirrored;
   }
@@ -185,30 +185,31 @@ inline glm::vec3 faceOfVoxel(const Octree& octree, const glm::dvec3& at, const g
 /// nothing, and the outline's normal is across it. The normal to shade with and the colour are
 /// interpolated between voxels, where the material wants it; else they are those of the voxel,
 /// colours of a node those of the nearest one in it.
-inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
+inline SurfacePoint pointOfPlane(const SurfaceMatrices& matrices, const View& view,
   const glm::dvec3& position, const glm::vec3& towards, Primitive primitive)
 {
-  const Octree& octree = frame.instance->body->octree;
+  const Octree& octree = matrices.instance->body->octree;
   const glm::vec3 forwards = glm::normalize(towards);
   const auto inWorld = [&](const glm::vec3& normal)
-  { return detail::normalized(frame.normalMatrix * normal, forwards); };
+  { return detail::normalized(matrices.normalMatrix * normal, forwards); };
   const bool node = primitive & NodePrimitive;
-  const bool cube = !node && frame.instance->body->leafGeometry == LeafGeometry::Voxel;
-  const glm::dvec3 at = frame.toOctree.point(position);
-  const glm::vec3 own = cube ? faceOfVoxel(octree, at, frame.toOctree.vector(glm::dvec3(towards)))
-                             : decodePlane(node ? octree.nodes()[primitive & ~NodePrimitive].plane
-                                                : octree.lists()[primitive])
-                                 .normal;
+  const bool cube = !node && matrices.instance->body->leafGeometry == LeafGeometry::Voxel;
+  const glm::dvec3 at = matrices.toOctree.point(position);
+  const glm::vec3 own = cube
+    ? faceOfVoxel(octree, at, matrices.toOctree.vector(glm::dvec3(towards)))
+    : decodePlane(
+        node ? octree.nodes()[primitive & ~NodePrimitive].plane : octree.lists()[primitive])
+        .normal;
   glm::vec3 outwards = inWorld(own);
   if (const float away = glm::dot(outwards, forwards); node && away < 0.0f)
   {
-    const Primitive seen = planeInSight(octree, at, frame.toOctree.vector(glm::dvec3(towards)));
+    const Primitive seen = planeInSight(octree, at, matrices.toOctree.vector(glm::dvec3(towards)));
     outwards = seen != NoPrimitive ? inWorld(decodePlane(octree.lists()[seen]).normal)
                                    : detail::normalized(outwards - away * forwards, forwards);
   }
   const float side = sideLane(outwards, towards);
   const glm::vec3 facet = side * outwards;
-  const Attributes& attributes = frame.instance->body->attributes;
+  const Attributes& attributes = matrices.instance->body->attributes;
   const bool colored = attributes.colors && attributes.colorAssociation == Association::Leaf;
   const auto colorOf = [&](std::uint32_t plane)
   { return detail::colorAt(attributes.colors, plane); };
@@ -216,7 +217,7 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
     ? colorOf(node ? nearestVoxel(octree, primitive & ~NodePrimitive, at) : primitive)
     : glm::vec3(1.0f);
   glm::vec3 normal = facet;
-  if (!node && !cube && !frame.instance->material.flatPlanes)
+  if (!node && !cube && !matrices.instance->material.flatPlanes)
   {
     const VoxelsAround around = voxelsAround(octree, at, own);
     normal = side * inWorld(smoothNormal(around, own));
@@ -227,40 +228,40 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
       normal = detail::normalized(normal - away * forwards, facet);
     }
   }
-  return { position, facet, shadersTurn(frame, view, position, facet) ? -normal : normal, color,
+  return { position, facet, shadersTurn(matrices, view, position, facet) ? -normal : normal, color,
     colored };
 }
 
 /// A point of a triangle, with the attributes that the triangle has at `at`, octree coordinates;
 /// without a surface of the octree's own plane, or whatever faces the viewer. `towards`: to the
 /// viewer; world.
-inline SurfacePoint pointOfTriangle(const SurfaceMatrices& frame, const View& view,
+inline SurfacePoint pointOfTriangle(const SurfaceMatrices& matrices, const View& view,
   const glm::dvec3& position, const glm::vec3& towards, Primitive primitive, const glm::dvec3& at)
 {
-  if (frame.instance->body->octree.hasPlanes())
+  if (matrices.instance->body->octree.hasPlanes())
   {
-    return pointOfPlane(frame, view, position, towards, primitive);
+    return pointOfPlane(matrices, view, position, towards, primitive);
   }
   const glm::vec3 forwards = glm::normalize(towards);
-  if (!frame.instance->body->octree.surface())
+  if (!matrices.instance->body->octree.surface())
   {
     return { position, forwards, forwards, glm::vec3(1.0f), false };
   }
-  const TriangleLook look(frame, primitive);
+  const TriangleLook look(matrices, primitive);
   const glm::vec3 winding = detail::normalized(look.winding, forwards);
   const glm::vec3 weight = look.needsWeights() ? look.weights(at) : glm::vec3(1.0f, 0.0f, 0.0f);
   const float side = sideLane(winding, towards);
   const glm::vec3 facet = side * winding;
   const glm::vec3 normal = side *
     detail::normalized(
-      look.smooth ? frame.normalMatrix * weighted(weight, look.normals) : look.normal, facet);
-  return { position, facet, shadersTurn(frame, view, position, facet) ? -normal : normal,
+      look.smooth ? matrices.normalMatrix * weighted(weight, look.normals) : look.normal, facet);
+  return { position, facet, shadersTurn(matrices, view, position, facet) ? -normal : normal,
     look.color(weight), look.hasColor };
 }
 
 /// The triangle of a hit at `position`, and where on it to interpolate; `towards`, to the viewer:
 /// world. The octree has a surface.
-VTKSVOTRACING_EXPORT NodeTriangle triangleOfHit(const SurfaceMatrices& frame,
+VTKSVOTRACING_EXPORT NodeTriangle triangleOfHit(const SurfaceMatrices& matrices,
   const glm::dvec3& position, const glm::vec3& towards, Primitive primitive);
 }
 

@@ -24,7 +24,7 @@ namespace svo
 /// large meshes the latter is not examined.
 inline bool isSmooth(const Instance& instance)
 {
-  constexpr std::size_t Few = 256; // triangles: few enough to be examined in every frame
+  constexpr std::size_t Few = 256; // triangles: few enough to be examined in every matrices
   constexpr double Flat = 1e-5;    // radians; rounding of normals is less
   const Attributes& attributes = instance.body->attributes;
   const Surface* surface = instance.body->octree.surface();
@@ -76,21 +76,21 @@ struct SmoothSurface
 struct SmoothTriangle
 {
   SmoothTriangle() = default;
-  SmoothTriangle(const SurfaceMatrices& frame, Primitive primitive)
+  SmoothTriangle(const SurfaceMatrices& matrices, Primitive primitive)
   {
-    const Instance& instance = *frame.instance;
+    const Instance& instance = *matrices.instance;
     assert(instance.body->octree.surface() && instance.body->attributes.normals);
     const Surface& surface = *instance.body->octree.surface();
     const glm::uvec3 corners = surface.triangles[primitive];
     a = surface.points[corners.x];
     e1 = surface.points[corners.y] - a;
     e2 = surface.points[corners.z] - a;
-    winding = frame.windingMatrix * glm::cross(e1, e2);
+    winding = matrices.windingMatrix * glm::cross(e1, e2);
     for (int i = 0; i < 3; ++i)
     {
       // Unit unless it is not finite, or 0.
       normals[i] = detail::normalized(
-        frame.normalMatrix * detail::vectorAt(instance.body->attributes.normals, corners[i]),
+        matrices.normalMatrix * detail::vectorAt(instance.body->attributes.normals, corners[i]),
         glm::vec3(0.0f));
     }
   }
@@ -105,13 +105,14 @@ struct SmoothTriangle
 class SmoothTriangles
 {
 public:
-  explicit SmoothTriangles(const SurfaceMatrices& frame)
-    : Frame(frame)
-    , ToWorld(glm::dmat3(frame.instance->localToWorld) * frame.instance->body->octree.rootEdge())
+  explicit SmoothTriangles(const SurfaceMatrices& matrices)
+    : Matrices(matrices)
+    , ToWorld(
+        glm::dmat3(matrices.instance->localToWorld) * matrices.instance->body->octree.rootEdge())
   {
     std::fill_n(this->Primitives, Slots, NoPrimitive);
   }
-  const SurfaceMatrices& frame() const { return this->Frame; }
+  const SurfaceMatrices& matrices() const { return this->Matrices; }
   /// Octree coordinates -> world, of directions.
   const glm::dmat3& toWorld() const { return this->ToWorld; }
   const SmoothTriangle& operator[](Primitive triangle)
@@ -120,14 +121,14 @@ public:
     if (this->Primitives[slot] != triangle)
     {
       this->Primitives[slot] = triangle;
-      this->Triangles[slot] = SmoothTriangle(this->Frame, triangle);
+      this->Triangles[slot] = SmoothTriangle(this->Matrices, triangle);
     }
     return this->Triangles[slot];
   }
 
 private:
   static constexpr Primitive Slots = 16;
-  const SurfaceMatrices& Frame;
+  const SurfaceMatrices& Matrices;
   const glm::dmat3 ToWorld;
   Primitive Primitives[Slots];
   SmoothTriangle Triangles[Slots];
@@ -143,7 +144,7 @@ inline SmoothSurface smoothSurfaceAt(SmoothTriangles& triangles, const SurfacePo
   {
     return result; // no normal of this facet
   }
-  const NodeTriangle hit = triangleOfHit(triangles.frame(), point.position, towards, primitive);
+  const NodeTriangle hit = triangleOfHit(triangles.matrices(), point.position, towards, primitive);
   const SmoothTriangle& triangle = triangles[hit.triangle];
   const glm::vec3 &e1 = triangle.e1, &e2 = triangle.e2;
   const glm::vec3 weight = nearWeights(glm::vec3(hit.at - glm::dvec3(triangle.a)), e1, e2);
@@ -211,7 +212,7 @@ inline TerminatorPoint atTerminator(SmoothTriangles& triangles, const Light& lig
     result.point.position += smooth.lift;
     result.point.facet = point.normal;
   }
-  else if (behind && triangles.frame().instance->castShadow)
+  else if (behind && triangles.matrices().instance->castShadow)
   {
     result.kind = TerminatorPoint::Kind::Hidden;
   }

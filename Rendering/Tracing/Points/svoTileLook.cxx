@@ -251,11 +251,11 @@ HWY_EXPORT(look);
 namespace
 {
 /// Facet, normal and colour of one point, which is on a triangle at `at`; see pointOfTriangle().
-void lookAtPoint(
-  const SurfaceMatrices& frame, Primitive triangle, const glm::dvec3& at, int i, TilePatch& patch)
+void lookAtPoint(const SurfaceMatrices& matrices, Primitive triangle, const glm::dvec3& at, int i,
+  TilePatch& patch)
 {
   const SurfacePoint point =
-    pointOfTriangle(frame, *patch.view, patch.position(i), patch.towards(i), triangle, at);
+    pointOfTriangle(matrices, *patch.view, patch.position(i), patch.towards(i), triangle, at);
   patch.facet.set(i, point.facet);
   patch.normal.set(i, point.normal);
   patch.color.set(i, point.color);
@@ -265,9 +265,9 @@ void lookAtPoint(
 /// The same of those points that are in `lanes`, all on nodes above the bricks; the octree has a
 /// surface. Lines of sight to nodes without a triangle that faces the viewer are traced all at
 /// once.
-void lookAtNodes(const SurfaceMatrices& frame, std::uint64_t lanes, TilePatch& patch)
+void lookAtNodes(const SurfaceMatrices& matrices, std::uint64_t lanes, TilePatch& patch)
 {
-  assert((lanes & ~patch.mask) == 0 && frame.instance->body->octree.surface());
+  assert((lanes & ~patch.mask) == 0 && matrices.instance->body->octree.surface());
   NodeTriangle picked[TilePatch::Most];
   NodeTriangle* doubtful[TilePatch::Most];
   glm::dvec3 towards[TilePatch::Most];
@@ -278,37 +278,38 @@ void lookAtNodes(const SurfaceMatrices& frame, std::uint64_t lanes, TilePatch& p
       const glm::vec3 to = patch.towards(i);
       const Primitive primitive = patch.hits->primitive[i];
       assert(primitive & NodePrimitive);
-      picked[i] = pickTriangle(frame, primitive & ~NodePrimitive, patch.position(i), to);
+      picked[i] = pickTriangle(matrices, primitive & ~NodePrimitive, patch.position(i), to);
       if (!picked[i].faces)
       {
-        towards[doubts] = frame.toOctree.vector(glm::dvec3(to));
+        towards[doubts] = matrices.toOctree.vector(glm::dvec3(to));
         doubtful[doubts++] = &picked[i];
       }
     });
   if (doubts > 0)
   {
-    settleTriangles(frame.instance->body->octree, doubtful, towards, doubts);
+    settleTriangles(matrices.instance->body->octree, doubtful, towards, doubts);
   }
-  eachBit(lanes, [&](int i) { lookAtPoint(frame, picked[i].triangle, picked[i].at, i, patch); });
+  eachBit(lanes, [&](int i) { lookAtPoint(matrices, picked[i].triangle, picked[i].at, i, patch); });
 }
 }
 
-void lookAtPatch(const SurfaceMatrices& frame, TilePatch& patch, TileTriangles& triangles)
+void lookAtPatch(const SurfaceMatrices& matrices, TilePatch& patch, TileTriangles& triangles)
 {
-  const bool hasSurface = frame.instance->body->octree.surface() != nullptr;
+  const bool hasSurface = matrices.instance->body->octree.surface() != nullptr;
   const std::uint64_t nodes = hasSurface ? patch.nodes : 0;
   std::uint64_t single = hasSurface ? 0 : patch.mask;
   if (hasSurface && nodes != patch.mask)
   {
     const std::uint64_t lanes = patch.mask & ~nodes;
-    findTriangles(frame, patch, lanes, triangles);
-    single = HWY_DYNAMIC_DISPATCH(look)(triangles, frame.instance->body->attributes, patch) & lanes;
+    findTriangles(matrices, patch, lanes, triangles);
+    single =
+      HWY_DYNAMIC_DISPATCH(look)(triangles, matrices.instance->body->attributes, patch) & lanes;
     if (!patch.view->plain)
     {
       eachBit(lanes & ~single,
         [&](int i)
         {
-          if (shadersTurn(frame, *patch.view, patch.position(i), patch.facet(i)))
+          if (shadersTurn(matrices, *patch.view, patch.position(i), patch.facet(i)))
           {
             patch.normal.set(i, -patch.normal(i));
           }
@@ -319,11 +320,11 @@ void lookAtPatch(const SurfaceMatrices& frame, TilePatch& patch, TileTriangles& 
     [&](int i)
     {
       lookAtPoint(
-        frame, patch.hits->primitive[i], frame.toOctree.point(patch.position(i)), i, patch);
+        matrices, patch.hits->primitive[i], matrices.toOctree.point(patch.position(i)), i, patch);
     });
   if (nodes != 0)
   {
-    lookAtNodes(frame, nodes, patch);
+    lookAtNodes(matrices, nodes, patch);
   }
 }
 }

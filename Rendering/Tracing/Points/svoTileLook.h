@@ -13,9 +13,9 @@
 
 namespace svo
 {
-/// `frame`: of the patch's instance. `triangles`: for this function alone.
+/// `matrices`: of the patch's instance. `triangles`: for this function alone.
 VTKSVOTRACING_EXPORT void lookAtPatch(
-  const SurfaceMatrices& frame, TilePatch& patch, TileTriangles& triangles);
+  const SurfaceMatrices& matrices, TilePatch& patch, TileTriangles& triangles);
 }
 
 #endif

@@ -64,7 +64,7 @@ void put(TileTriangles& triangles, int k, int column, const Vector& value)
 /// The weights of the points of triangle k as affine functions of the way from the patch's origin,
 /// which is `from`, octree coordinates. In double, as ratios of areas: what is lost on a triangle
 /// that is n times as long as wide is the rounding of the result.
-void putWeights(const SurfaceMatrices& frame, const TriangleLook& look, const glm::dvec3& from,
+void putWeights(const SurfaceMatrices& matrices, const TriangleLook& look, const glm::dvec3& from,
   int k, TileTriangles& triangles)
 {
   const glm::dvec3 e1(look.e1), e2(look.e2), area = glm::cross(e1, e2);
@@ -73,32 +73,33 @@ void putWeights(const SurfaceMatrices& frame, const TriangleLook& look, const gl
   const glm::dvec3 v = scale * glm::cross(e2, area), w = scale * glm::cross(area, e1);
   const glm::dvec3 to = from - glm::dvec3(look.a);
   triangles.column[TileTriangles::V][k] = static_cast<float>(glm::dot(v, to));
-  put(triangles, k, TileTriangles::AlongV, glm::vec3(frame.toOctree.gradient(v)));
+  put(triangles, k, TileTriangles::AlongV, glm::vec3(matrices.toOctree.gradient(v)));
   triangles.column[TileTriangles::W][k] = static_cast<float>(glm::dot(w, to));
-  put(triangles, k, TileTriangles::AlongW, glm::vec3(frame.toOctree.gradient(w)));
+  put(triangles, k, TileTriangles::AlongW, glm::vec3(matrices.toOctree.gradient(w)));
 }
 }
 
-void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::uint64_t lanes,
+void findTriangles(const SurfaceMatrices& matrices, const TilePatch& patch, std::uint64_t lanes,
   TileTriangles& triangles)
 {
-  assert(lanes != 0 && (lanes & ~patch.mask) == 0 && frame.instance->body->octree.surface());
+  assert(lanes != 0 && (lanes & ~patch.mask) == 0 && matrices.instance->body->octree.surface());
   HWY_DYNAMIC_DISPATCH(findDifferent)(patch.hits->primitive, lanes, triangles);
   for (int k = 0; k < triangles.count; ++k)
   {
-    __builtin_prefetch(&frame.instance->body->octree.surface()->triangles[triangles.primitive[k]]);
+    __builtin_prefetch(
+      &matrices.instance->body->octree.surface()->triangles[triangles.primitive[k]]);
   }
-  const glm::dvec3 from = frame.toOctree.point(patch.origin.position);
+  const glm::dvec3 from = matrices.toOctree.point(patch.origin.position);
   triangles.oddLanes = 0;
   triangles.smooth = false;
   for (int k = 0; k < triangles.count; ++k)
   {
-    const TriangleLook look(frame, triangles.primitive[k]);
+    const TriangleLook look(matrices, triangles.primitive[k]);
     triangles.textured = look.textured;
     triangles.coloredByPoints = look.coloredByPoints;
     triangles.coloredByCells = look.hasColor && !look.textured && !look.coloredByPoints;
-    triangles.ownNormals = frame.instance->body->attributes.normals &&
-      (look.smooth || frame.instance->body->attributes.normalAssociation == Association::Cell);
+    triangles.ownNormals = matrices.instance->body->attributes.normals &&
+      (look.smooth || matrices.instance->body->attributes.normalAssociation == Association::Cell);
     const bool bends =
       look.smooth && (look.normals[0] != look.normals[1] || look.normals[0] != look.normals[2]);
     bool odd = !hasUnitLane(look.winding);
@@ -106,7 +107,7 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
     put(triangles, k, TileTriangles::Facet, unitLane(look.winding));
     if (bends || look.textured || look.coloredByPoints)
     {
-      putWeights(frame, look, from, k, triangles);
+      putWeights(matrices, look, from, k, triangles);
     }
     else // one normal at all corners: points are those of the first corner
     {
@@ -117,7 +118,7 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
     }
     if (!bends) // else normals are interpolated, of all triangles
     {
-      const glm::vec3 normal = look.smooth ? frame.normalMatrix * look.normals[0] : look.normal;
+      const glm::vec3 normal = look.smooth ? matrices.normalMatrix * look.normals[0] : look.normal;
       odd = odd || !hasUnitLane(normal);
       if (triangles.ownNormals)
       {
@@ -132,7 +133,7 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
     {
       if (look.smooth)
       {
-        put(triangles, k, TileTriangles::Normals + 3 * i, frame.normalMatrix * look.normals[i]);
+        put(triangles, k, TileTriangles::Normals + 3 * i, matrices.normalMatrix * look.normals[i]);
       }
       if (look.coloredByPoints || (i == 0 && triangles.coloredByCells))
       {

@@ -46,7 +46,7 @@ struct TileTriangles
 };
 
 /// The triangles of those points of a patch that are in `lanes`, which are no nodes.
-void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::uint64_t lanes,
+void findTriangles(const SurfaceMatrices& matrices, const TilePatch& patch, std::uint64_t lanes,
   TileTriangles& triangles);
 }
 

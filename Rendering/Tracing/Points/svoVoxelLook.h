@@ -17,7 +17,7 @@ struct VoxelsAround
 {
   int count = 0;
   std::uint32_t planes[8]; // indices in lists()
-  glm::vec3 normals[8];    // of the planes; local frame, unit
+  glm::vec3 normals[8];    // of the planes; local coordinates, unit
   float shares[8];         // 0..1, of the cube of a voxel around the point
 };
 

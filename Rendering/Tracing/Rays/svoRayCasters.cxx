@@ -65,8 +65,8 @@ float opacityMet(
   const Hit hit = intersect(instance.body->octree, { localEnd + from * local, -local, 0.0, from },
     { caster.geometry, MaximumLevel });
   return hit ? instance.opacity *
-      surfaceAlpha(caster.frame, end + (from - hit.t) * towards, glm::vec3(glm::normalize(towards)),
-        hit.primitive)
+      surfaceAlpha(caster.matrices, end + (from - hit.t) * towards,
+        glm::vec3(glm::normalize(towards)), hit.primitive)
              : 0.0f;
 }
 }

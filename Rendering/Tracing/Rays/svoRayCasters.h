@@ -28,8 +28,8 @@ struct RayCaster
   double leafError;  // world; how far any leaf can be off
   bool beams;        // all leaves are triangles
   CasterBox box;
-  SurfaceMatrices frame; // where its opacity is mapped
-  double floatError;     // world; what floats do not tell apart on it
+  SurfaceMatrices matrices; // where its opacity is mapped
+  double floatError;        // world; what floats do not tell apart on it
 
   /// How far off their surface rays in float have to begin for it, world; `own`: it is that of the
   /// points.

@@ -1,5 +1,5 @@
 // Rays that are asked together, side by side in float: which of them come to a box. Boxes are
-// thrown out before any ray is turned into a caster's own frame. Wald et al., "Applying Ray
+// thrown out before any ray is turned into a caster's own coordinates. Wald et al., "Applying Ray
 // Streams", and Tsakok, "Faster Incoherent Rays: Multi-BVH Ray Stream Tracing", 2009.
 #ifndef svoRayStream_h
 #define svoRayStream_h

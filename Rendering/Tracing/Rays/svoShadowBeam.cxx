@@ -19,7 +19,7 @@ namespace
 /// Where rays from a light begin, the point being at 1: what the light lies on is not between.
 constexpr double BeforeLight = 1e-9;
 
-/// A beam's own frame: depth along the axis, and two directions across it.
+/// A beam's coordinates: depth along the axis, and two directions across it.
 struct BeamBasis
 {
   glm::dvec3 origin; // the light, or a point of the beam
@@ -69,14 +69,14 @@ bool traceBeam(const Octree& octree, const WorldToOctree& toOctree, const Light&
   }
   const bool far = light.atInfinity();
   const glm::dvec3 source = far ? toOctree.vector(light.direction) : toOctree.point(light.position);
-  const BeamBasis frame(far ? centre : source, far ? source : centre - source);
+  const BeamBasis basis(far ? centre : source, far ? source : centre - source);
 
   // The cube's depths.
   const double edge = std::ldexp(1.0, -octree.rootBits(0));
   const glm::dvec3 low(1.0);
   const double half =
-    0.5 * edge * (std::abs(frame.axis.x) + std::abs(frame.axis.y) + std::abs(frame.axis.z));
-  const double middle = frame.depth(low + 0.5 * edge);
+    0.5 * edge * (std::abs(basis.axis.x) + std::abs(basis.axis.y) + std::abs(basis.axis.z));
+  const double middle = basis.depth(low + 0.5 * edge);
   const double base = far ? middle - half : std::max(middle - half, 0.0);
   const double behind = middle + half;
 
@@ -87,9 +87,9 @@ bool traceBeam(const Octree& octree, const WorldToOctree& toOctree, const Light&
   bool narrow = true;
   for (int i = 0; i < points.count; ++i)
   {
-    const glm::dvec3 to = points.at[i] - frame.origin;
-    const double end = glm::dot(frame.axis, to);
-    const double u = glm::dot(frame.u, to), v = glm::dot(frame.v, to);
+    const glm::dvec3 to = points.at[i] - basis.origin;
+    const double end = glm::dot(basis.axis, to);
+    const double u = glm::dot(basis.u, to), v = glm::dot(basis.v, to);
     const double slopeU = far ? u : u / end, slopeV = far ? v : v / end;
     narrow = narrow && (far || (end > 0.0 && std::abs(slopeU) < 1.0 && std::abs(slopeV) < 1.0));
     lowU = std::min(lowU, slopeU);
@@ -98,8 +98,8 @@ bool traceBeam(const Octree& octree, const WorldToOctree& toOctree, const Light&
     highV = std::max(highV, slopeV);
     last = std::max(last, end);
     rays[i].end = end;
-    rays[i].direction = far ? frame.axis : frame.axis + slopeU * frame.u + slopeV * frame.v;
-    rays[i].origin = far ? points.at[i] - end * frame.axis : frame.origin;
+    rays[i].direction = far ? basis.axis : basis.axis + slopeU * basis.u + slopeV * basis.v;
+    rays[i].origin = far ? points.at[i] - end * basis.axis : basis.origin;
   }
   if (!narrow)
   {
@@ -113,18 +113,18 @@ bool traceBeam(const Octree& octree, const WorldToOctree& toOctree, const Light&
   TilePyramid pyramid;
   const auto side = [&](const glm::dvec3& across, double slope, double sign)
   {
-    const glm::dvec3 normal = far ? across : across - slope * frame.axis;
-    glm::dvec4 plane = planeThrough(normal, frame.origin);
+    const glm::dvec3 normal = far ? across : across - slope * basis.axis;
+    glm::dvec4 plane = planeThrough(normal, basis.origin);
     plane.w -= far ? slope : 0.0;
     plane *= sign;
     plane.w += 2.0 * BeamRounding;
     return plane;
   };
-  pyramid.side[0] = side(frame.u, lowU, 1.0);
-  pyramid.side[1] = side(frame.u, highU, -1.0);
-  pyramid.side[2] = side(frame.v, lowV, 1.0);
-  pyramid.side[3] = side(frame.v, highV, -1.0);
-  pyramid.t = planeThrough(frame.axis, frame.origin);
+  pyramid.side[0] = side(basis.u, lowU, 1.0);
+  pyramid.side[1] = side(basis.u, highU, -1.0);
+  pyramid.side[2] = side(basis.v, lowV, 1.0);
+  pyramid.side[3] = side(basis.v, highV, -1.0);
+  pyramid.t = planeThrough(basis.axis, basis.origin);
   pyramid.t.w -= base;
   const float tFar = static_cast<float>(std::min(last, behind) - base + BeamRounding);
   std::vector<TileNode> nodes;

@@ -57,7 +57,7 @@ Picture pictureOf(const svo::Frame& frame, const svo::Scene& scene, const svo::V
   picture.grey.resize(pixels);
   picture.object.assign(pixels, NoObject);
   picture.normal.assign(pixels, glm::vec3(0.0f));
-  std::vector<svo::SurfaceMatrices> frames(scene.instances.begin(), scene.instances.end());
+  std::vector<svo::SurfaceMatrices> matrices(scene.instances.begin(), scene.instances.end());
   for (std::size_t i = 0; i < pixels; ++i)
   {
     picture.grey[i] = frame.color[4 * i];
@@ -71,7 +71,7 @@ Picture pictureOf(const svo::Frame& frame, const svo::Scene& scene, const svo::V
     const double x = static_cast<double>(i % frame.width) + 0.5;
     const double y = static_cast<double>(i / frame.width) + 0.5;
     picture.normal[i] = svo::surfacePoint(
-      frames[frame.instance[i]], view, x, y, linearDepth(view, frame.depth[i]), frame.primitive[i])
+      matrices[frame.instance[i]], view, x, y, linearDepth(view, frame.depth[i]), frame.primitive[i])
                           .facet;
   }
   return picture;

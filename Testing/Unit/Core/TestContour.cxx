@@ -70,7 +70,7 @@ svo::SourceOctree build(const std::function<double(const glm::dvec3&)>& f, int l
   options.leafGeometry = svo::LeafGeometry::Plane;
   options.modelLow = glm::dvec3(-1.0);
   options.modelHigh = glm::dvec3(1.0);
-  options.frame = frame;
+  options.transform = frame;
   svo::SourceOctree built =
     svo::buildSourceOctree(svo::FieldSource(field, { 0.0, 1.1, 0.0 }), options, { cells }, mesh);
   EXPECT_EQ(built.status, svo::BuildStatus::Built) << built.message;

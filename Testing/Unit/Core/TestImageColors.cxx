@@ -83,8 +83,8 @@ TEST(ImageColors, LeavesHaveValues)
         const double* o = octree.header().origin;
         const glm::dvec3 inFrame =
           glm::dvec3(o[0], o[1], o[2]) + voxel * (glm::dvec3(c.cell) + 0.5);
-        const glm::dvec3 centre(octree.frame() * glm::dvec4(inFrame, 1.0));
-        const glm::dvec3 along = glm::abs(glm::transpose(glm::dmat3(octree.frame())) * slope);
+        const glm::dvec3 centre(octree.transform() * glm::dvec4(inFrame, 1.0));
+        const glm::dvec3 along = glm::abs(glm::transpose(glm::dmat3(octree.transform())) * slope);
         const double most = 500.0 * voxel * (along.x + along.y + along.z) + 1.0;
         // Of a voxel that reaches beyond the image, values are those of its edge.
         if (level >= 5)

@@ -147,8 +147,8 @@ TEST(SVOToHyperTreeGrid, TakesOctreesOfPlanes)
 TEST(SVOToHyperTreeGrid, StretchesWithTheFrame)
 {
   svo::BuildOptions options = svotest::boxOfInterest(5);
-  options.frame[0][0] = 3.0;
-  options.frame[3] = glm::dvec4(10.0, 0.0, -2.0, 1.0);
+  options.transform[0][0] = 3.0;
+  options.transform[3] = glm::dvec4(10.0, 0.0, -2.0, 1.0);
   const svotest::SphereField sphere(0.8);
   const svo::FieldSource source(sphere, { 0.0, 0.0, 0.05 });
   vtkNew<vtkPolyData> hull;
@@ -171,7 +171,7 @@ TEST(SVOToHyperTreeGrid, StretchesWithTheFrame)
   }
   EXPECT_TRUE(grid.messages.all().empty()) << grid.messages.all();
 
-  options.frame[1][0] = 0.1;
+  options.transform[1][0] = 0.1;
   ASSERT_EQ(svo::buildSourceOctree(source, options, {}, hull).status, svo::BuildStatus::Built);
   GridOf sheared(hull);
   EXPECT_EQ(sheared.output()->GetNumberOfNonEmptyTrees(), 0);

@@ -167,7 +167,7 @@ TEST(VDBAgainst, RaysMeetALevelSetWhereOpenVDBsDo)
   vtkNew<vtkPolyData> hull;
   svo::octreeOfGrid(*grid, svo::VDBOptions(), hull);
   const svo::Octree octree = octreeOf(hull);
-  ASSERT_TRUE(octree && !octree.hasFrame());
+  ASSERT_TRUE(octree && !octree.hasTransform());
   const double voxel = octree.header().voxelSize;
   openvdb::tools::LevelSetRayIntersector<openvdb::FloatGrid> theirs(*grid);
   openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> field(*grid);

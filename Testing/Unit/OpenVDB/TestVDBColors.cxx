@@ -60,7 +60,7 @@ TEST(VDBColors, AreTrilinearValuesOfAnotherGrid)
         const glm::dvec3 p = placeOf(octree, { c.cell.x, c.cell.y, c.cell.z });
         const double off = values->GetComponent(leaf++, 0) - field({ p.x, p.y, p.z });
         // On the plane, which is in the voxel; of voxels in their middles, but for rounding.
-        const glm::dvec3 along = glm::abs(glm::transpose(glm::dmat3(octree.frame())) * slope);
+        const glm::dvec3 along = glm::abs(glm::transpose(glm::dmat3(octree.transform())) * slope);
         const double most = octree.header().voxelSize * (along.x + along.y + along.z) *
           (conversion == vtkSVOVDBReader::VOXELS ? 1e-3 : 0.501);
         far += std::abs(off) > most;

@@ -153,7 +153,7 @@ TEST(VDBReader, LevelSetsStandWhereTheirMapPutsThem)
     const svo::Octree octree = reading.octree();
     EXPECT_EQ(reading.messages.all(), "");
     EXPECT_EQ(octree.header().leafGeometry, std::uint32_t(svo::LeafGeometry::Plane));
-    framed += octree.hasFrame();
+    framed += octree.hasTransform();
     expectSphere(reading.output(), world, 0.02);
     for (const auto& [x, y, z] : indicesOf(octree, grid->transform()))
     {

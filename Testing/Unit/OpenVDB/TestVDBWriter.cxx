@@ -115,7 +115,7 @@ TEST(VDBWriter, FramesAndSolidsAreTheSameWhenReadAgain)
   file.write({ grid });
   Reading first(file.name());
   const svo::Octree before = first.octree();
-  ASSERT_TRUE(before.hasFrame());
+  ASSERT_TRUE(before.hasTransform());
   ASSERT_EQ(before.header().voxelCount, 71u * 48u * 27u - 1u);
   expectSameLeaves(first.output());
   // Full nodes are tiles.

@@ -155,13 +155,13 @@ inline std::vector<Cell> cellsOf(const svo::Octree& octree)
   return cells;
 }
 
-/// The centre of a voxel in the local frame.
+/// The centre of a voxel in the local coordinates.
 inline glm::dvec3 placeOf(const svo::Octree& octree, const Cell& cell)
 {
   const svo::Header& h = octree.header();
   const glm::dvec3 own = glm::dvec3(h.origin[0], h.origin[1], h.origin[2]) +
     (glm::dvec3(std::get<0>(cell), std::get<1>(cell), std::get<2>(cell)) + 0.5) * h.voxelSize;
-  return glm::dvec3(octree.frame() * glm::dvec4(own, 1.0));
+  return glm::dvec3(octree.transform() * glm::dvec4(own, 1.0));
 }
 
 /// Voxels (i, j, k) of the grid that the octree has, by where they lie.

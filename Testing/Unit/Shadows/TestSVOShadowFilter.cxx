@@ -292,7 +292,7 @@ TEST(SVOShadowFilter, TheMeshCastsIfItIsToldTo)
 
 TEST(SVOShadowFilter, TwoMeshesInOnePlaceDoNotShadowEachOther)
 {
-  // The same ground as a caster, elsewhere in its own frame, so that it is rounded otherwise.
+  // The same ground as a caster, elsewhere in its own coordinates, so that it is rounded otherwise.
   MeshPointer slope = hills(20);
   Shadows shadows(slope);
   shadows.filter->AddLight(sun(0.1, 0.2, 1));

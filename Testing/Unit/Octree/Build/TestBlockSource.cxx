@@ -71,7 +71,7 @@ svo::BuildResult buildOf(const svo::SurfaceSource& source, const svo::Cube& cube
   svo::BuildOptions options = boxOfInterest(level);
   options.modelLow = cube.origin;
   options.modelHigh = cube.origin + cube.edge;
-  options.frame = frame;
+  options.transform = frame;
   return svo::build(source, cube, options);
 }
 
@@ -104,7 +104,7 @@ TEST(BlockSource, TheVoxelsAreThoseOfTheBlocks)
     }
     EXPECT_EQ(octree.header().origin[0], cube.origin.x);
     EXPECT_EQ(octree.header().voxelSize, 0.1);
-    EXPECT_FALSE(octree.hasFrame());
+    EXPECT_FALSE(octree.hasTransform());
     const svo::MeanPlane plane = svo::decodePlane(octree.lists()[0]);
     EXPECT_NEAR(0.8660254 * plane.offset, 0.25, 0.001);
   }
@@ -122,14 +122,14 @@ TEST(BlockSource, FramesTravelInTheBuffer)
     const KnownVoxels source(blocksOf(someVoxels(5, count, 1)), cube, 5);
     const svo::Octree plain = openPlanes(buildOf(source, cube, 5));
     const svo::Octree framed = openPlanes(buildOf(source, cube, 5, Sheared));
-    EXPECT_EQ(plain.frame(), glm::dmat4(1.0));
-    EXPECT_FALSE(plain.hasFrame());
-    ASSERT_TRUE(framed.hasFrame());
-    EXPECT_EQ(framed.frame(), Sheared);
+    EXPECT_EQ(plain.transform(), glm::dmat4(1.0));
+    EXPECT_FALSE(plain.hasTransform());
+    ASSERT_TRUE(framed.hasTransform());
+    EXPECT_EQ(framed.transform(), Sheared);
     std::vector<std::byte> a = bytesOf(plain), b = bytesOf(framed);
     EXPECT_EQ(b.size() % 8, 0u);
-    EXPECT_EQ(b.size(), (a.size() + 7) / 8 * 8 + svo::FrameBytes);
-    reinterpret_cast<svo::Header*>(b.data())->framed = 0;
+    EXPECT_EQ(b.size(), (a.size() + 7) / 8 * 8 + svo::TransformBytes);
+    reinterpret_cast<svo::Header*>(b.data())->transformed = 0;
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size()), 0) << "nothing else differs";
   }
 }
@@ -146,15 +146,15 @@ TEST(BlockSource, FramesThatAreNoneAreRefused)
       static_cast<std::byte*>(::operator new(good.size())), [](void* p) { ::operator delete(p); });
     std::memcpy(bytes.get(), good.data(), good.size());
     auto& header = *reinterpret_cast<svo::Header*>(bytes.get());
-    change(header, reinterpret_cast<double*>(bytes.get() + svo::frameOffset(header)));
+    change(header, reinterpret_cast<double*>(bytes.get() + svo::transformOffset(header)));
     std::string error;
     const bool opened(svo::Octree::open(bytes, good.size(), nullptr, error));
     EXPECT_EQ(opened, error.empty());
     return opened;
   };
   EXPECT_TRUE(opens([](svo::Header&, double*) {}));
-  EXPECT_FALSE(opens([](svo::Header& h, double*) { h.framed = 0; })) << "of another size";
-  EXPECT_FALSE(opens([](svo::Header& h, double*) { h.framed = 2; }));
+  EXPECT_FALSE(opens([](svo::Header& h, double*) { h.transformed = 0; })) << "of another size";
+  EXPECT_FALSE(opens([](svo::Header& h, double*) { h.transformed = 2; }));
   EXPECT_FALSE(opens([](svo::Header&, double* m) { m[3] = std::nan(""); }));
   EXPECT_FALSE(
     opens([](svo::Header&, double* m) { m[7] = std::numeric_limits<double>::infinity(); }));
@@ -165,9 +165,9 @@ TEST(BlockSource, FramesThatAreNoneAreRefused)
   EXPECT_TRUE(opens([](svo::Header&, double* m) { m[3] = 1e30; }));
   for (const double scale : { 1e-100, 1e100 })
   {
-    EXPECT_TRUE(svo::isFrame(glm::scale(glm::dmat4(1.0), glm::dvec3(scale))));
+    EXPECT_TRUE(svo::isTransform(glm::scale(glm::dmat4(1.0), glm::dvec3(scale))));
   }
-  EXPECT_FALSE(svo::isFrame(glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 1.0, 1e-10))));
+  EXPECT_FALSE(svo::isTransform(glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 1.0, 1e-10))));
   EXPECT_FALSE(
     static_cast<bool>(buildOf(source, cube, 5, glm::scale(glm::dmat4(1.0), glm::dvec3(0.0))).data));
 }

@@ -11,7 +11,7 @@ using svotest::Mesh;
 
 struct Block
 {
-  glm::dvec3 centre; // local frame
+  glm::dvec3 centre; // local coordinates
   double halfDiagonal;
   svo::MeanPlane plane;
 };

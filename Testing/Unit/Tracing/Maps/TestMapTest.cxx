@@ -302,7 +302,7 @@ TEST(MapTest, AConvexBodyInGrazingLightDoesNotShadowItself)
       0, settings, budget);
     buffer.markAll();
     buffer.trace(serialFor);
-    const SurfaceMatrices frame(scene.instances[0]);
+    const SurfaceMatrices matrices(scene.instances[0]);
     const DepthBuffer& depth = eye.hits().depth;
     int wrong = 0;
     for (int y = 0; y < view.height; ++y)
@@ -315,7 +315,7 @@ TEST(MapTest, AConvexBodyInGrazingLightDoesNotShadowItself)
           continue;
         }
         const SurfacePoint point = surfacePoint(
-          frame, view, x + 0.5, y + 0.5, eye.hits().base(0) + depth.t[at], depth.primitive[at]);
+          matrices, view, x + 0.5, y + 0.5, eye.hits().base(0) + depth.t[at], depth.primitive[at]);
         const glm::dvec3 towards = glm::normalize(scene.lights[0].position - point.position);
         const double cosine = glm::dot(glm::dvec3(point.facet), towards);
         if (cosine > 0.02)

@@ -107,8 +107,8 @@ TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
 {
   const Ball ball(8, 8);
   const svo::Instance instance = ball.instance(1, movedTo(3, 0, 0));
-  const svo::SurfaceMatrices frame(instance);
-  svo::SmoothTriangles triangles(frame);
+  const svo::SurfaceMatrices matrices(instance);
+  svo::SmoothTriangles triangles(matrices);
   const svo::Surface& surface = *ball.octree.surface();
   for (std::uint32_t k = 0; k < surface.triangles.size(); ++k)
   {
@@ -123,7 +123,7 @@ TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
     {
       const glm::vec3 towards(side * middle);
       const svo::SurfacePoint point = svo::pointOfTriangle(
-        frame, svo::View(), position, towards, k, frame.toOctree.point(position));
+        matrices, svo::View(), position, towards, k, matrices.toOctree.point(position));
       svo::Light light = lightOf(svo::Light::Kind::Directional, { 1, 0, 0 });
       light.direction = glm::dvec3(point.facet); // from behind
       const svo::TerminatorPoint at =
@@ -148,8 +148,8 @@ TEST(Terminator, TrianglesThatAreRememberedAreTheirOwn)
 {
   const Ball ball(16, 16);
   const svo::Instance instance = ball.instance(1);
-  const svo::SurfaceMatrices frame(instance);
-  svo::SmoothTriangles remembered(frame);
+  const svo::SurfaceMatrices matrices(instance);
+  svo::SmoothTriangles remembered(matrices);
   const auto count = static_cast<std::uint32_t>(ball.octree.surface()->triangles.size());
   int raised = 0;
   for (std::uint32_t i = 0; i < 4 * count; ++i)
@@ -160,8 +160,8 @@ TEST(Terminator, TrianglesThatAreRememberedAreTheirOwn)
       0.3 * ball.mesh.points[corners.y] + 0.2 * ball.mesh.points[corners.z];
     const glm::vec3 towards(position);
     const svo::SurfacePoint point = svo::pointOfTriangle(
-      frame, svo::View(), position, towards, k, frame.toOctree.point(position));
-    svo::SmoothTriangles fresh(frame);
+      matrices, svo::View(), position, towards, k, matrices.toOctree.point(position));
+    svo::SmoothTriangles fresh(matrices);
     const svo::SmoothSurface expected = svo::smoothSurfaceAt(fresh, point, towards, k);
     const svo::SmoothSurface found = svo::smoothSurfaceAt(remembered, point, towards, k);
     ASSERT_EQ(found.lift, expected.lift) << k;

@@ -1,6 +1,6 @@
 // Shadow volumes find what rays to the lights find: of meshes that are closed and open, for all
 // kinds of lights and views, wherever the eye is.
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 #include "svoImageCases.h"
 #include "svoTestStage.h"
 

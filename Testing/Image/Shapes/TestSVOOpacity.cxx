@@ -1,7 +1,7 @@
 // What is opaque casts, whatever makes the rest of a surface translucent or invisible: tables,
 // opacity arrays, points and cells without a value, blocks. What casts nothing says so once, and
 // casts in silence with TranslucentShadows.
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 #include "svoCompositeMapper.h"
 #include "svoTestStage.h"
 

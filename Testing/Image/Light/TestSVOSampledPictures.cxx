@@ -1,6 +1,6 @@
 // Ambient occlusion, skies and lights with a size on what VTK draws, with samples of either
 // backend: pictures against those that the CPU traces.
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 #include "svoImageCases.h"
 #include "svoTestStage.h"
 

@@ -1,7 +1,7 @@
 // Samples of the light on surfaces that VTK draws, taken by the CPU and by OpenGL: against closed
 // forms of penumbras, and as pictures change, are refined, and have parts of pixels.
 // (TestSVOSampledPictures compares them with what the CPU traces.)
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 #include "svoTestStage.h"
 
 #include "vtkActorCollection.h"

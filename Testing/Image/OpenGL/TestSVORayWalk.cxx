@@ -205,11 +205,11 @@ double takenByColors(const svo::Instance& instance, const svo::Ray& ray, const g
         { planes ? svo::LeafGeometry::Plane : svo::LeafGeometry::Triangle, svo::MaximumLevel });
     if (hit)
     {
-      const svo::SurfaceMatrices frame(instance);
+      const svo::SurfaceMatrices matrices(instance);
       const glm::dvec3 at = end + (far - hit.t) * ray.direction;
       return instance.opacity *
-        (planes ? svo::detail::alphaOfPlane(frame, hit.primitive, at)
-                : svo::detail::alphaOfTriangle(frame, hit.primitive, at));
+        (planes ? svo::detail::alphaOfPlane(matrices, hit.primitive, at)
+                : svo::detail::alphaOfTriangle(matrices, hit.primitive, at));
     }
   }
   return 0.0;

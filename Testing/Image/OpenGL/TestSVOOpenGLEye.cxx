@@ -1,6 +1,6 @@
 // Surfaces without triangles with the OpenGL backend: VTK's shaders trace them for the eye, and the
 // picture is the CPU's.
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 #include "svoImageCases.h"
 #include "svoTestStage.h"
 

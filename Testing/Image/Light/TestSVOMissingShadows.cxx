@@ -2,7 +2,7 @@
 // none there is silence.
 #include "svoTestStage.h"
 
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 
 #include "vtkPlane.h"
 #include "vtkPolyData.h"

@@ -1,7 +1,7 @@
 // Ambient occlusion, skies and lights with a size by rays in OpenGL's shaders: what a shadow mask
 // says of a plane against closed forms and against the CPU with the same samples, computed and by
 // fragments. (TestSVOSampledPictures compares pictures.)
-#include "../Unit/svoClosedForms.h"
+#include "../../Unit/svoClosedForms.h"
 #include "svoFragments.h"
 #include "svoTestStage.h"
 

@@ -2,7 +2,7 @@
 // not known is named once, where somebody may miss a shadow.
 #include "svoTestStage.h"
 
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 
 #include "vtkCompositePolyDataMapper.h"
 #include "vtkElevationFilter.h"

@@ -1,6 +1,6 @@
 // Backend Auto: software takes the CPU, a GPU takes OpenGL where that is not slower. What is chosen
 // is the picture of the backend itself.
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 #include "svoImageCases.h"
 #include "svoTestStage.h"
 

@@ -1,6 +1,6 @@
 // Shadow maps that OpenGL draws: what lies at their texels, and the pictures that look them up, are
 // those of the CPU's.
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 #include "svoImageCases.h"
 #include "svoMapsBeside.h"
 #include "svoTestStage.h"

@@ -1,6 +1,6 @@
 // Other tracers than ours behind the pass: they know the tracer's face (svoTracer.h), and whatever
 // pictures and shadow maps they give are what the window shows, be they in arrays or on the GPU.
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 #include "svoImageCases.h"
 #include "svoTestStage.h"
 

@@ -1,7 +1,7 @@
 // With the OpenGL backend VTK draws all that is seen, and its shaders send a ray through the
 // octrees to each light: the picture is VTK's own where light comes, and lit or dark as the CPU's
 // exact rays say.
-#include "../Unit/svoTestMessages.h"
+#include "../../Unit/svoTestMessages.h"
 #include "svoImageCases.h"
 #include "svoOpenGL.h"
 #include "svoTestStage.h"
