@@ -156,7 +156,7 @@ void vtkSVORenderPass::MeasureFrame(
   // What was waited for to be built will not be built again.
   fixedSeconds = frame.octreesBuilt > 0 ? 0.0 : frame.collectTime;
   const double maps =
-    frame.tracer.lightsWithRays > 0 ? frame.tracer.lights.wall : frame.tracer.shadowTime;
+    frame.tracer.askedCasters() ? frame.tracer.lights.wall : frame.tracer.shadowTime;
   shadowSeconds = frame.pacedShadows ? maps : 0.0;
   seconds = fixedSeconds + frame.tracer.traceTime + frame.tracer.shadowTime + frame.presentTime;
 }

@@ -140,8 +140,7 @@ void vtkSVORenderPass::BeginAttachedFrame(svo::AttachedRenderer& attached)
       frame.state->shareShadows(
         this->Impl->controller, width, height, frame.pace.distance, frame.settings);
     }
-    else if (frame.settings.shadowTechnique == svo::ShadowTechnique::Rays ||
-      frame.settings.asksHemispheres())
+    else if (frame.settings.asksCasters() || frame.settings.asksHemispheres())
     {
       frame.state->shareCasters(this->Impl->controller,
         static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);

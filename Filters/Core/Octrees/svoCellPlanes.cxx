@@ -13,8 +13,6 @@ namespace svo
 {
 namespace
 {
-constexpr float Sqrt3 = 1.7320508f;
-
 /// Depth of the nodes whose masks hold the cells of a level.
 int depthOf(const Octree& octree, int level)
 {
@@ -92,7 +90,7 @@ std::vector<CellBlock> blocksOf(const Octree& octree, int depth, const ParallelF
 CellPlane planeOfBits(std::uint32_t bits)
 {
   const MeanPlane plane = decodePlane(bits);
-  return { plane.normal, 0.5f * Sqrt3 * plane.offset };
+  return { plane.normal, MeanPlane::HalfDiagonal * plane.offset };
 }
 }
 

@@ -25,7 +25,6 @@ namespace svo
 {
 namespace
 {
-constexpr float Sqrt3 = 1.7320508f;
 
 struct Brick
 {
@@ -171,7 +170,7 @@ bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
           const int i = lowestBit(left);
           const std::uint32_t leaf = octree.planeOf(brick.node, i);
           const MeanPlane plane = decodePlane(octree.lists()[leaf]);
-          const glm::vec3 foot = 0.5f * Sqrt3 * plane.offset * plane.normal;
+          const glm::vec3 foot = MeanPlane::HalfDiagonal * plane.offset * plane.normal;
           const glm::dvec3 inVoxel(glm::clamp(foot, -0.5f, 0.5f) + 0.5f);
           visit(
             leaf, origin + h.voxelSize * (glm::dvec3(brick.firstVoxel + cellOfIndex(i)) + inVoxel));

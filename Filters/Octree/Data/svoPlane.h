@@ -25,6 +25,8 @@ struct MeanPlane
 {
   glm::vec3 normal; // unit length
   float offset;     // -1..1, in half diagonals of the block
+
+  static constexpr float HalfDiagonal = 0.5f * 1.7320508f; // of a block whose edge is 1
 };
 
 inline std::uint32_t encodePlane(const MeanPlane& p)

@@ -13,7 +13,7 @@ namespace svo
 {
 namespace
 {
-constexpr double Rounding = 1e-6; // of indices
+constexpr double IndexRounding = 1e-6; // of indices
 
 /// Of the step from one voxel to the next, in indices along an axis.
 double stepOf(const ImageGrid& grid, double half, int axis)
@@ -27,7 +27,7 @@ bool ImageBrick::ready(const ImageGrid& grid, double half)
   bool small = true;
   for (int a = 0; a < 3; ++a)
   {
-    small = small && std::abs(stepOf(grid, half, a)) <= 1.0 + 0.1 * Rounding;
+    small = small && std::abs(stepOf(grid, half, a)) <= 1.0 + 0.1 * IndexRounding;
   }
   return small;
 }
@@ -40,7 +40,7 @@ ImageBrick::Axis ImageBrick::axisOf(double begin, double step, int last)
   const auto add = [&](double index, double at)
   {
     const double whole = std::round(index);
-    const double there = std::abs(index - whole) < Rounding ? whole : index;
+    const double there = std::abs(index - whole) < IndexRounding ? whole : index;
     const double inside = std::clamp(there, 0.0, static_cast<double>(last));
     const int point = std::min(static_cast<int>(inside), last - 1);
     assert(axis.count < Positions);
@@ -54,8 +54,8 @@ ImageBrick::Axis ImageBrick::axisOf(double begin, double step, int last)
     axis.border[k] = axis.count;
     add(here, k);
     const double between =
-      step > 0.0 ? std::floor(here + Rounding) + 1.0 : std::ceil(here - Rounding) - 1.0;
-    if (k < NodeEdge && (next - between) / step > Rounding && between > 0.0 && between < last)
+      step > 0.0 ? std::floor(here + IndexRounding) + 1.0 : std::ceil(here - IndexRounding) - 1.0;
+    if (k < NodeEdge && (next - between) / step > IndexRounding && between > 0.0 && between < last)
     {
       add(between, k + (between - here) / step);
     }

@@ -6,13 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include <glm/trigonometric.hpp>
+
 namespace svo
 {
-namespace
-{
-constexpr double Degree = 3.14159265358979323846 / 180.0;
-}
-
 Date nextDay(const Date& date)
 {
   if (isDate(date.year, date.month, date.day + 1))
@@ -48,7 +45,7 @@ void SunBins::add(const glm::dvec3& direction, double weight, const Date& date, 
     return;
   }
   const int ring = static_cast<int>(elevationOf(direction) / this->Width);
-  const double around = 360.0 * std::cos((ring + 0.5) * this->Width * Degree);
+  const double around = 360.0 * std::cos(glm::radians((ring + 0.5) * this->Width));
   const int parts = std::max(1, static_cast<int>(std::ceil(around / this->Width)));
   const int part = static_cast<int>(azimuthOf(direction) / 360.0 * parts);
   const auto found = this->Places.emplace(std::make_pair(ring, part), this->Bins.size());

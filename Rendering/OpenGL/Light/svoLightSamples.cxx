@@ -25,6 +25,7 @@ std::vector<std::uint32_t> sequenceWords()
 {
   constexpr int Edge = 64; // of the blue-noise mask
   std::vector<std::uint32_t> words;
+  words.reserve(Edge * Edge + 2 * MostSamples);
   for (int i = 0; i < Edge * Edge; ++i)
   {
     words.push_back(pixelRotation(i % Edge, i / Edge, 0).u);

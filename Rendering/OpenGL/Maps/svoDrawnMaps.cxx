@@ -36,7 +36,7 @@ bool sameCasters(const std::vector<LightMaps>& a, const std::vector<LightMaps>& 
     [](const LightMaps& x, const LightMaps& y) { return x.casters == y.casters; });
 }
 
-/// By map, of `size` texels along an edge: what is not in the texture's layers as it was.
+/// By map, of `size` texels along an edge: what has changed since the texture's layers were drawn.
 std::vector<PixelRect> partsToDraw(const std::vector<ShadowMap>& before,
   const std::vector<MapCopy>& copiesBefore, const std::vector<ShadowMap>& now,
   const std::vector<MapCopy>& copies, int size)
@@ -94,7 +94,7 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
     }
   }
   const std::string& words = this->link(alphas.size() > 0);
-  const std::string whyNot = words.empty()
+  std::string whyNot = words.empty()
     ? this->drawParts(
         partsToDraw(before, this->InMaps, this->Maps, copies, size), copies, arena, alphas)
     : "OpenGL refuses the shaders of shadow maps (" + words + ")";

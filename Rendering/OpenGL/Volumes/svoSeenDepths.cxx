@@ -74,6 +74,7 @@ SeenDepths::SeenDepths(const std::vector<Outline>& outlines,
 {
   const std::vector<View> views = fitLight(outlines, casters, light, Tiles);
   std::vector<double> farthest; // of each
+  farthest.reserve(views.size());
   for (const View& view : views)
   {
     farthest.push_back(view.tFar);

@@ -24,20 +24,6 @@
 
 namespace svo
 {
-namespace
-{
-// A stencil: rays tell its pixel's light. Else the bits below count volumes.
-constexpr GLint Asks = 0x80;
-constexpr GLuint CountBits = 0x7f;
-constexpr int VerticesOfEdge = 6, VerticesOfCap = 3; // as svoShadowVolume.glsl
-
-constexpr char Zero[] = "#version 150\n"
-                        "out vec4 svoNone;\n"
-                        "void main()\n"
-                        "{\n"
-                        "  svoNone = vec4(0.0);\n"
-                        "}\n";
-
 /// OpenGL's state of stencils, beside that of StateGuard.
 class StencilGuard
 {
@@ -78,6 +64,20 @@ private:
   };
   GLint Values[2][Names];
 };
+
+namespace
+{
+// A stencil: rays tell its pixel's light. Else the bits below count volumes.
+constexpr GLint Asks = 0x80;
+constexpr GLuint CountBits = 0x7f;
+constexpr int VerticesOfEdge = 6, VerticesOfCap = 3; // as svoShadowVolume.glsl
+
+constexpr char Zero[] = "#version 150\n"
+                        "out vec4 svoNone;\n"
+                        "void main()\n"
+                        "{\n"
+                        "  svoNone = vec4(0.0);\n"
+                        "}\n";
 
 GLint at(GLuint program, const char* uniform)
 {

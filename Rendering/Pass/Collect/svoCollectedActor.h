@@ -23,7 +23,7 @@ class vtkPolyData;
 
 namespace svo
 {
-/// How props are collected. Where one of these is not what it was, all of them are collected again.
+/// How props are collected. Where one of these changes, all of them are collected again.
 struct PropChoices
 {
   bool shadows = true; // casters are wanted, and a light casts, or for what is all around

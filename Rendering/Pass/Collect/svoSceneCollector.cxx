@@ -27,13 +27,8 @@ namespace
 {
 bool sameLights(const std::vector<Light>& a, const std::vector<Light>& b)
 {
-  const auto values = [](const Light& l)
-  {
-    return std::tie(l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent,
-      l.attenuation, l.color, l.castShadow, l.size, l.id);
-  };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-    [&](const Light& x, const Light& y) { return values(x) == values(y); });
+    [](const Light& x, const Light& y) { return valuesOf(x) == valuesOf(y); });
 }
 
 /// True if both ask for the same octrees.
@@ -147,7 +142,7 @@ PropSurfaces SceneCollector::judge(vtkProp* prop)
   return found;
 }
 
-/// Collects the props that are not what they were. True if that is any, or if some are gone.
+/// Collects the props that have changed. True if that is any, or if some are gone.
 bool SceneCollector::collectProps(
   const std::vector<vtkSmartPointer<vtkProp>>& props, const CollectProps& frame, bool all)
 {

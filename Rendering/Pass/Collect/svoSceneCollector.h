@@ -70,7 +70,7 @@ struct CollectedScene
 std::vector<vtkSmartPointer<vtkProp>> propsOf(vtkRenderer* renderer);
 
 /// Collects frame after frame from one renderer. Casters outside of the picture are in. Whatever is
-/// as it was in the last frame is neither collected nor written again: props (svoPropState.h),
+/// unchanged since the last frame is neither collected nor written again: props (svoPropState.h),
 /// octrees, and the scene's instances.
 class SceneCollector
 {

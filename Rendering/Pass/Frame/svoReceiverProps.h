@@ -19,7 +19,7 @@ class ReceiverProps
 {
 public:
   /// Takes those of a frame's props, for its length. They have keys. True if they are the last
-  /// frame's, and as they were.
+  /// frame's, unchanged.
   bool take(const vtkRenderState& drawn, const CollectedScene& collected);
 
   /// What is opaque of them, or what is `translucent`: as if it were opaque, the nearest counts.

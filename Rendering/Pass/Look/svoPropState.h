@@ -28,7 +28,7 @@ vtkSmartPointer<vtkMatrix4x4> matrixOfPart(vtkProp* part, vtkMatrix4x4* ofPath);
 enum class Held
 {
   No,
-  Moved, // an actor that is elsewhere, and else what it was
+  Moved, // an actor that is elsewhere, unchanged otherwise
   Yes
 };
 
@@ -43,7 +43,7 @@ public:
   /// Notes a prop that was looked at just now: its pipelines are up to date.
   void note(vtkProp* prop);
 
-  /// Whether the prop is what it was when it was noted. No if that cannot be told, as of classes
+  /// Whether the prop is unchanged since it was noted. No if that cannot be told, as of classes
   /// that may draw anything. Brings its pipelines up to date; `updated` is the algorithm that this
   /// was last done of in this frame.
   Held holds(vtkProp* prop, vtkAlgorithm*& updated) const;

@@ -22,8 +22,8 @@ std::uint64_t newVersion();
 
 /// Brings `instances`, which are those of the last call, in line with all surfaces of the props, in
 /// order. PropSurfaces::fresh says whose are written whole, SceneSurface::written what the others
-/// were. Those that are shown have their versions. True if one of these is not what it was when it
-/// was shown last.
+/// were. Those that are shown have their versions. True if one of these has changed since it was
+/// shown last.
 bool writeInstances(
   std::vector<PropSurfaces>& props, Stage stage, std::vector<Instance>& instances);
 }

@@ -61,7 +61,7 @@ struct SceneSurface
   // Of a frame:
   bool bringsOctree = false;     // `instance.body->octree` is not the store's
   NeededLevels needed;           // of octrees that it does not bring
-  WrittenSurface written, shown; // as its instances are; as they were when a frame had them last
+  WrittenSurface written, shown; // as its instances are; as a frame had them last
   Shared<Body> body;             // as written: that of all its instances, and not `instance.body`
 
   std::size_t count() const { return this->copies ? this->copies->copies.size() : 1; }

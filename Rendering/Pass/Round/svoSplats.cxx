@@ -79,10 +79,10 @@ private:
 };
 
 /// An array of the points as the mapper looks it up: of a component, or the magnitude of all.
-class Numbers
+class PointNumbers
 {
 public:
-  Numbers(vtkPolyData* input, const char* name, int component, vtkPiecewiseFunction* function,
+  PointNumbers(vtkPolyData* input, const char* name, int component, vtkPiecewiseFunction* function,
     int tableSize)
     : Array(name ? input->GetPointData()->GetArray(name) : nullptr)
   {
@@ -262,9 +262,9 @@ Splats splatsOf(vtkPointGaussianMapper* mapper, vtkPolyData* input, bool all)
   // Beyond the edge nothing is drawn.
   const double disc = std::min(discOf(mapper->GetSplatShaderCode()), Version::edge(mapper));
   const double factor = mapper->GetScaleFactor() * disc;
-  const Numbers sizes(input, mapper->GetScaleArray(), mapper->GetScaleArrayComponent(),
+  const PointNumbers sizes(input, mapper->GetScaleArray(), mapper->GetScaleArrayComponent(),
     mapper->GetScaleFunction(), mapper->GetScaleTableSize());
-  const Numbers opacities(input, mapper->GetOpacityArray(), mapper->GetOpacityArrayComponent(),
+  const PointNumbers opacities(input, mapper->GetOpacityArray(), mapper->GetOpacityArrayComponent(),
     mapper->GetScalarOpacityFunction(), mapper->GetOpacityTableSize());
   vtkNew<vtkPolyDataMapper> own; // the mapper's colours are those of its last input
   own->vtkMapper::ShallowCopy(mapper);

@@ -1,4 +1,4 @@
-// Which instances of a scene are not what they were: found once a scene, and told to all who keep
+// Which instances of a scene have changed: found once a scene, and told to all who keep
 // anything of them.
 #ifndef svoSceneChanges_h
 #define svoSceneChanges_h

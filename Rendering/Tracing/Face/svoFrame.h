@@ -59,6 +59,12 @@ struct FrameSettings
 {
   /// True if points ask what is all around them.
   bool asksHemispheres() const { return this->ambientOcclusion || this->skyLight; }
+  /// True if points ask the casters what is before a light, and not maps of these.
+  bool asksCasters() const
+  {
+    return this->shadowTechnique != ShadowTechnique::None &&
+      this->shadowTechnique != ShadowTechnique::Buffer;
+  }
   /// Where filterShadows has an effect: MapTest::darkness() is asked instead of yes or no.
   bool filters() const
   {
@@ -128,16 +134,22 @@ struct PhaseTime
   double processor = 0.0; // of all threads of the program
 };
 
-struct FrameStatistics
+/// What was done for a frame; nothing, where its picture stays.
+struct FrameCounts
 {
-  double traceTime = 0.0;  // s, depth layers of the eye, merging, shading
-  double shadowTime = 0.0; // s, shadow buffers or rays
-  PhaseTime eye;           // depth layers of the eye, merged
-  PhaseTime mark;          // what visible points will look up of the lights
-  PhaseTime lights;        // shadow buffers, those shared with other processes apart
-  PhaseTime shade;         // shading and shadow tests; shadow rays
   std::uint64_t primaryRays = 0;
   std::uint64_t shadowRays = 0;
+  std::uint64_t retracedLayers = 0; // traced or drawn, of the eye and of lights
+};
+
+struct FrameStatistics : FrameCounts
+{
+  double traceTime = 0.0;    // s, depth layers of the eye, merging, shading
+  double shadowTime = 0.0;   // s, shadow buffers or rays
+  PhaseTime eye;             // depth layers of the eye, merged
+  PhaseTime mark;            // what visible points will look up of the lights
+  PhaseTime lights;          // shadow buffers, those shared with other processes apart
+  PhaseTime shade;           // shading and shadow tests; shadow rays
   int lightsWithBuffers = 0; // casting lights whose shadows were found so
   int lightsWithRays = 0;
   std::uint64_t shadowVolumes = 0; // casters, once a light
@@ -151,10 +163,9 @@ struct FrameStatistics
   /// How far the picture is from that of fewer samples which it has replaced, RMS of colours of
   /// 0..255 where something was hit; negative: it has replaced none.
   double lightError = -1.0;
-  std::uint64_t retracedLayers = 0; // layers traced or drawn this frame, of the eye and of lights
-  std::uint64_t layerMemory = 0;    // bytes held by kept layers
-  std::uint64_t shadowMemory = 0;   // bytes held by shadow buffers and what was handed out of them
-  std::uint64_t gpuMemory = 0;      // bytes of octrees there
+  std::uint64_t layerMemory = 0;  // bytes held by kept layers
+  std::uint64_t shadowMemory = 0; // bytes held by shadow buffers and what was handed out of them
+  std::uint64_t gpuMemory = 0;    // bytes of octrees there
   /// Visible instances that the eye's layers were made without: outside of the view, hidden by
   /// others, or below the detailThreshold.
   std::uint64_t outsideInstances = 0, hiddenInstances = 0, smallInstances = 0;
@@ -173,6 +184,9 @@ struct FrameStatistics
   /// How far from the surface of a receiver in view its shadows may begin, pixels, however deep its
   /// octree is; 0 without shadows.
   double largestGap = 0.0;
+
+  /// True if shading is, for the most part, asking casters.
+  bool askedCasters() const { return this->lightsWithRays > 0; }
 };
 
 /// Texels of a shadow map in tiles of 8x8. Those tiles are held in which a caster lies.

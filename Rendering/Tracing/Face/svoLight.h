@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 
 #include <glm/vec3.hpp>
 
@@ -50,6 +51,14 @@ struct Light
   /// How many times that way rays to the light go: what it lies on is not between.
   double rayEnd() const { return this->atInfinity() ? 1e300 : 1.0 - 1e-9; }
 };
+
+/// All that a light is.
+inline auto valuesOf(const Light& l)
+{
+  static_assert(sizeof(Light) == 120, "who adds a member adds it here");
+  return std::tie(l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent,
+    l.attenuation, l.color, l.castShadow, l.size, l.id);
+}
 }
 
 #endif

@@ -56,10 +56,10 @@ struct TileGrid
     return tileX >= this->x0 && tileX < this->x0 + this->tilesX && tileY >= this->y0 &&
       tileY < this->y0 + this->tilesY;
   }
-  /// Calls body(first, last) for stretches of places of the tiles that a rectangle of pixels
+  /// Calls function(first, last) for stretches of places of the tiles that a rectangle of pixels
   /// touches, as far as they are looked at.
-  template <class Body>
-  void eachStretch(const PixelRect& rect, const Body& body) const
+  template <class Function>
+  void eachStretch(const PixelRect& rect, const Function& function) const
   {
     const int from = std::max(rect.x0 / 8, this->x0);
     const int to = std::min((rect.x1 + 7) / 8, this->x0 + this->tilesX);
@@ -70,7 +70,7 @@ struct TileGrid
       {
         const std::size_t first = this->index(x, y);
         const int count = std::min(to - x, this->columns - static_cast<int>(first % this->columns));
-        body(first, first + count);
+        function(first, first + count);
         x += count;
       }
     }

@@ -42,7 +42,7 @@ public:
     LayerBudget& budget, const ParallelFor& parallelFor = serialFor);
 
   /// Traces and merges. With `wanted` (one byte a place of the view's TileGrid) only
-  /// tiles marked there; others are left without hits, unless they are what they were.
+  /// tiles marked there; others are left without hits, unless they are unchanged.
   void trace(const ParallelFor& parallelFor, const std::uint8_t* wanted);
   /// What was hit. Who is seen is true from prepare() on.
   const Hits& hits() const { return this->Seen; }
@@ -73,7 +73,7 @@ public:
 private:
   void findLayers(LayerBudget& budget);
   void findIntervals(const ParallelFor& parallelFor);
-  /// Finds the tiles that are not what they were.
+  /// Finds the tiles that have changed.
   void findStale(const std::uint8_t* wanted);
   void traceTiles(const ParallelFor& parallelFor);
   /// Of those that turned out to be others.
@@ -81,7 +81,7 @@ private:
 
   TracedInstances Instances;
   Hits Seen{ {}, {}, 0, this->Instances };
-  MergedTiles Tiles;       // which of them are not what they were
+  MergedTiles Tiles;       // which of them have changed
   bool HasFrame;           // hits and layers are those of a frame that keeps them
   bool WasShifted = false; // TracedInstances::shifted() of the last frame
   LayerCache Layers;

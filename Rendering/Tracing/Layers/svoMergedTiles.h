@@ -1,5 +1,5 @@
 // Which tiles of a depth buffer are still what the view's instances give, and which have to be
-// merged anew: those that an instance touches, or touched, that is not what it was.
+// merged anew: those that an instance touches, or touched, that has changed.
 #ifndef svoMergedTiles_h
 #define svoMergedTiles_h
 
@@ -36,7 +36,7 @@ class MergedTiles
 public:
   /// Prepares a frame of these parts, in the order of their indices; their memory is exchanged for
   /// that of the last frame's. `keep`: tiles that no changed part touches, and that were looked at,
-  /// are what they were, if the view has the same image and a crop as large. `wanted`: one byte a
+  /// stay, if the view has the same image and a crop as large. `wanted`: one byte a
   /// place of the view's grid, or null for all; tiles that are not wanted are empty unless they are
   /// known. Returns false if all tiles are new.
   bool beginFrame(
@@ -56,15 +56,15 @@ public:
   /// True if what the stale tile was in the last frame is what the same parts gave, but for those
   /// that changed.
   bool wasMerged(std::size_t tile) const { return this->changeOf(tile) == Change::Touched; }
-  /// The stale tile is what it was. Threads may settle different tiles.
+  /// The stale tile is unchanged after all. Threads may settle different tiles.
   void settle(std::size_t tile)
   {
     assert(this->wasMerged(tile));
     this->Changes[tile] = Change::Same;
   }
-  /// After the frame: true if the tile may not be what it was in the last one.
+  /// After the frame: true if the tile may have changed since the last one.
   bool changed(std::size_t tile) const { return this->changeOf(tile) >= Change::Touched; }
-  /// True if the part (by index in Scene::instances) is not what it was, or is gone.
+  /// True if the part (by index in Scene::instances) has changed, or is gone.
   bool partChanged(std::uint32_t index) const
   {
     return this->ChangedParts[std::min<std::size_t>(index, this->ChangedParts.size() - 1)] != 0;
@@ -93,7 +93,7 @@ private:
     None,
     Same,    // looked at again: no changed part was or is seen
     Touched, // by a part that changed
-    New      // what it was is not known
+    New      // nothing is known of it
   };
   Change changeOf(std::size_t tile) const
   {

@@ -34,15 +34,15 @@ struct TileGroup
     return r.x0 <= x0 + this->window.x1 && r.x1 > x0 + this->window.x0 &&
       r.y0 <= y0 + this->window.y1 && r.y1 > y0 + this->window.y0;
   }
-  /// Calls body(tileX, tileY) for the tiles of the window.
-  template <class Body>
-  void eachTile(Body&& body) const
+  /// Calls function(tileX, tileY) for the tiles of the window.
+  template <class Function>
+  void eachTile(Function&& function) const
   {
     for (int row = this->window.y0 / 8; row <= this->window.y1 / 8; ++row)
     {
       for (int column = this->window.x0 / 8; column <= this->window.x1 / 8; ++column)
       {
-        body(this->x + column, this->y + row);
+        function(this->x + column, this->y + row);
       }
     }
   }

@@ -121,8 +121,7 @@ std::vector<NeededLevels> neededLevels(
     const int deepest = instance.body->deepestLevel;
     const bool unknown =
       !instance.body->box.known() || (instance.visible && (eye.width <= 0 || eye.height <= 0));
-    const bool rays =
-      casting && instance.castShadow && settings.shadowTechnique == ShadowTechnique::Rays;
+    const bool rays = casting && instance.castShadow && settings.asksCasters();
     // Who asks for no error at all, or gives a bias in voxels, has the voxels' size in mind.
     const bool exact = !rays && errorOf(instance) > 0.0 && settings.bias == 0.0;
     int& seenByLights = needed[i].lights;

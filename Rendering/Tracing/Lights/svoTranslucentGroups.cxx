@@ -16,7 +16,7 @@ namespace
 /// More casters are not compared with each other: it takes the square of their number.
 constexpr std::size_t MostCompared = 512;
 /// Texels that filters look beyond a shadow's edge.
-constexpr double Reach = 6.0;
+constexpr double GroupReach = 6.0;
 
 /// Where a caster is in a view, in clip space.
 struct Place
@@ -43,7 +43,7 @@ Place placeOf(const Outline& outline, const View& view, const glm::dmat4& toClip
     place.low = glm::min(place.low, glm::dvec2(clip) / clip.w);
     place.high = glm::max(place.high, glm::dvec2(clip) / clip.w);
   }
-  const glm::dvec2 reach = Reach / glm::dvec2(view.width, view.height);
+  const glm::dvec2 reach = GroupReach / glm::dvec2(view.width, view.height);
   return { place.low - reach, place.high + reach };
 }
 }

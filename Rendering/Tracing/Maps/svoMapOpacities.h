@@ -18,7 +18,7 @@ namespace svo
 class MapOpacities
 {
 public:
-  /// After the map is traced, each time: of tiles that are not what they were, or of all. Of a
+  /// After the map is traced, each time: of tiles that have changed, or of all. Of a
   /// texel it is that of the place on the caster that the ray of the texel's centre meets.
   void find(const Scene& scene, const View& view, const Hits& map, bool all,
     const ParallelFor& parallelFor);

@@ -174,6 +174,6 @@ MapTest::Answer MapTest::ask(const MapPlace& place, const glm::ivec2& texel,
     shadowTest<double>({ glm::dvec3(point.facet), glm::dvec3(point.normal),
       point.position - map.view.rayOrigin(x, y), map.view.rayDirection(x, y), t, edge,
       map.edge.aspect, occluder, bias, std::max(map.casterError[caster], error) });
-  return static_cast<Answer>(answer.dark());
+  return static_cast<Answer>(answer.shadowed());
 }
 }

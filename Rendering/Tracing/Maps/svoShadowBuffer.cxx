@@ -142,8 +142,8 @@ void ShadowBuffer::arrangeMaps(const std::vector<View>& views, LayerBudget& budg
   }
 }
 
-template <class Body>
-void ShadowBuffer::tilesAround(const MapPlace& place, BufferName name, Body&& body) const
+template <class Function>
+void ShadowBuffer::tilesAround(const MapPlace& place, BufferName name, Function&& function) const
 {
   const TileGrid& grid = this->Maps[place.index]->grid;
   const PixelRect& crop = place.map->view.crop;
@@ -155,7 +155,7 @@ void ShadowBuffer::tilesAround(const MapPlace& place, BufferName name, Body&& bo
   {
     for (int x = x0; x <= x1; ++x)
     {
-      body(LightTile{ name.light, name.group, static_cast<std::uint8_t>(place.index),
+      function(LightTile{ name.light, name.group, static_cast<std::uint8_t>(place.index),
         static_cast<std::uint32_t>(grid.index(x, y)) });
     }
   }

@@ -144,9 +144,9 @@ private:
   void noteOpacities(const Scene& scene, const std::uint8_t* casters, std::uint8_t group);
   /// True if the texels around the place are.
   bool isTraced(const MapPlace& place) const;
-  /// Calls body(name) for the light tiles of the texels that a point asks: one, two or four.
-  template <class Body>
-  void tilesAround(const MapPlace& place, BufferName name, Body&& body) const;
+  /// Calls function(name) for the light tiles of the texels that a point asks: one, two or four.
+  template <class Function>
+  void tilesAround(const MapPlace& place, BufferName name, Function&& function) const;
   /// How far from a point texels are asked, in texels: the test asks the four whose centres
   /// surround it; the filter's narrowest window reaches as far, and endsBefore() asks one beyond.
   static constexpr float AroundTest = 0.5f, AroundFilter = 2.0f;
@@ -158,7 +158,7 @@ private:
   // Of translucent casters.
   bool Translucent = false;
   std::vector<Attributes> MappedColors; // of those whose alpha counts
-  bool OtherOpacities = false;          // they are not what they were
+  bool OtherOpacities = false;          // they have changed
   const Scene* Traced = nullptr;        // with these, until trace() is over
   float Around = AroundTest;
   bool SameMaps = false;

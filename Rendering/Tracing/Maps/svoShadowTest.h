@@ -59,7 +59,7 @@ struct ShadowAnswer
   Real slope;  // of the flatter plane
   Real edgeOn; // by how much a plane's slope is other than EdgeOnSine
   /// 0: lit; 1: dark by an occluder nearby, which other texels have to agree on; 2: dark.
-  int dark() const
+  int shadowed() const
   {
     const int which = farBefore > Real(0) ? 2 : 1;
     return (reached > Real(0)) & (behind > Real(0)) ? which : 0;

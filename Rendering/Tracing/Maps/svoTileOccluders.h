@@ -29,7 +29,7 @@ struct TileOccluders
 class MapOccluders
 {
 public:
-  /// After the map is traced, each time: of the tiles that are not what they were.
+  /// After the map is traced, each time: of the tiles that have changed.
   void find(const Hits& map, const ParallelFor& parallelFor);
   /// The map is not what shadows are looked up in.
   void forget()

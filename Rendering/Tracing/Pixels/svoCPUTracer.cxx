@@ -326,7 +326,7 @@ void CPUTracer::render(
   self.ViewsAreTraced = !changes.none();
   if (!self.ViewsAreTraced)
   {
-    statistics.primaryRays = statistics.shadowRays = statistics.retracedLayers = 0;
+    static_cast<FrameCounts&>(statistics) = FrameCounts();
     statistics.mark = statistics.lights = statistics.shade = PhaseTime();
     statistics.shadowTime = statistics.samplingTime = 0.0;
     statistics.eye = clock.end();
@@ -361,7 +361,7 @@ void CPUTracer::render(
   statistics.shade = clock.end();
   self.LightShadows.addStatistics(statistics);
   // Where there are shadow rays, they are nearly all of it.
-  double& shadeTime = statistics.lightsWithRays > 0 ? statistics.shadowTime : statistics.traceTime;
+  double& shadeTime = statistics.askedCasters() ? statistics.shadowTime : statistics.traceTime;
   shadeTime = statistics.shade.wall;
   statistics.traceTime += statistics.eye.wall + statistics.mark.wall;
   statistics.shadowTime += statistics.lights.wall + self.SharingTime;
@@ -427,7 +427,7 @@ void CPUTracer::sampleReceivers(const Scene& scene, const View& view, const Rece
   const double seconds = now() - start;
   FrameStatistics& statistics = self.Statistics;
   statistics.samplingTime += seconds;
-  (statistics.lightsWithRays > 0 ? statistics.shadowTime : statistics.traceTime) += seconds;
+  (statistics.askedCasters() ? statistics.shadowTime : statistics.traceTime) += seconds;
   SampleNoise noise = self.Sampled.noise();
   noise.add(self.Receivers.noise());
   statistics.lightNoise = 255.0 * noise.rms();

@@ -2,6 +2,7 @@
 
 #include "svoSkyPicture.h"
 
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -10,8 +11,8 @@ namespace svo
 namespace
 {
 // Who adds a member to one of these adds it below.
-static_assert(sizeof(Light) == 120 && sizeof(View) == 496 && sizeof(FrameNeeds) == 48,
-  "all that pictures depend on is compared");
+static_assert(
+  sizeof(View) == 496 && sizeof(FrameNeeds) == 48, "all that pictures depend on is compared");
 
 using Bytes = std::vector<unsigned char>;
 
@@ -30,8 +31,7 @@ void add(Bytes& bytes, const T&... values)
 
 void addLight(const Light& l, Bytes& bytes)
 {
-  add(bytes, l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent, l.attenuation,
-    l.color, l.castShadow, l.size, l.id);
+  std::apply([&bytes](const auto&... values) { add(bytes, values...); }, valuesOf(l));
 }
 
 /// Rays and shading; what else a view has follows from these.

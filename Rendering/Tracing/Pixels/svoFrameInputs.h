@@ -12,7 +12,7 @@
 
 namespace svo
 {
-/// What is not what it was in the last frame.
+/// What has changed since the last frame.
 struct FrameChanges
 {
   bool all = true;                      // of the picture nothing is known to be the same

@@ -18,17 +18,17 @@ class FrameTiles
 public:
   /// Begins a new version of the frame, always the same one: makes it as large as the view, finds
   /// the tiles with hits and Frame::covered, and wipes tiles that have none any more. Returns true
-  /// if the other tiles of the frame are as they were left.
+  /// if the other tiles of the frame are unchanged.
   bool find(
     const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame);
 
   /// Indices into the depth buffer's tiles, ascending.
   const std::vector<std::uint32_t>& hits() const { return this->Hits; }
 
-  /// Calls body(tileX, tileY, scratch) for the tiles with hits; a scratch serves some of them, one
+  /// Calls function(tileX, tileY, scratch) for the tiles with hits; a scratch serves some of them, one
   /// after the other.
-  template <class Scratch, class Body>
-  void each(const ParallelFor& parallelFor, const Body& body) const
+  template <class Scratch, class Function>
+  void each(const ParallelFor& parallelFor, const Function& function) const
   {
     parallelFor(0, this->Hits.size(), 32,
       [&](std::size_t first, std::size_t last)
@@ -37,7 +37,7 @@ public:
         for (std::size_t k = first; k < last; ++k)
         {
           const int tile = static_cast<int>(this->Hits[k]);
-          body(tile % this->TilesX, tile / this->TilesX, scratch);
+          function(tile % this->TilesX, tile / this->TilesX, scratch);
         }
       });
   }

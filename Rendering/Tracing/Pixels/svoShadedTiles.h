@@ -46,7 +46,7 @@ public:
     assert(tile < this->Tiles.size());
     return this->Tiles[tile];
   }
-  /// Its hits, or their looks or lights, are not what they were. Threads may mark different tiles.
+  /// Its hits, or their looks or lights, have changed. Threads may mark different tiles.
   bool stale(std::size_t tile) const { return (this->Stale[tile] & Itself) != 0; }
   void setStale(std::size_t tile, bool stale)
   {

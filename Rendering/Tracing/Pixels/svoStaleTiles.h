@@ -20,8 +20,8 @@ namespace svo
 void findStaleTiles(
   const Hits& eye, const std::vector<std::uint32_t>& instances, bool all, ShadedTiles& tiles);
 
-/// Stale are also those whose lights may not be what they were. `hits`: tiles that show anything.
-/// `casters`: by index into Scene::instances, as they were; becomes what they are.
+/// Stale are also those whose lights may have changed. `hits`: tiles that show anything.
+/// `casters`: by index into Scene::instances, of the last frame; becomes this frame's.
 void findDarkenedTiles(const Scene& scene, const FrameChanges& changes, const Shadows& shadows,
   const std::vector<std::uint32_t>& hits, std::vector<CasterBox>& casters,
   const ParallelFor& parallelFor, ShadedTiles& tiles);

@@ -80,6 +80,7 @@ inline SquarePoint sequencePoint(std::uint32_t index)
 inline std::vector<SquarePoint> firstPoints(int count)
 {
   std::vector<SquarePoint> points;
+  points.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
   {
     points.push_back(sequencePoint(static_cast<std::uint32_t>(i)));

@@ -41,7 +41,7 @@ inline double meetPlane(
 
 /// Moves the hit of a ray onto the plane of its triangle, along the ray: so that nothing is lost
 /// but the rounding of the triangle's own points. The error along a ray of a picture is then less
-/// than half of what it was.
+/// than half as large.
 inline float placeOnPlane(
   const TrianglePlane& plane, const LocalView& local, double x, double y, float hit)
 {

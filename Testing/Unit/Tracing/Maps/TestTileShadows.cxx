@@ -271,7 +271,7 @@ TEST(TileShadows, AnswersThatAreGivenAreThoseInDouble)
               }
               const int found = tests.dark >> i & 1 ? 2 : tests.nearby >> i & 1 ? 1 : 0;
               ++given[found];
-              ASSERT_EQ(found, shadowTest(questions[i]).dark());
+              ASSERT_EQ(found, shadowTest(questions[i]).shadowed());
             });
         });
       EXPECT_GT(unsure, 100);
