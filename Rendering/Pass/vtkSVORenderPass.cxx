@@ -5,6 +5,7 @@
 #include "svoOpenGLTracer.h"
 #include "svoOwnCamera.h"
 #include "svoPassInternals.h"
+#include "svoPassTexts.h"
 #include "svoPropPasses.h"
 #include "svoSMPParallel.h"
 
@@ -15,7 +16,6 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -61,34 +61,8 @@ std::unique_ptr<svo::Tracer> vtkSVORenderPass::MakeTracer() const
 
 std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
 {
-  constexpr std::pair<int, const char*> texts[] = {
-    { TEXT_HEADLIGHT, "headlight" },
-    { TEXT_ONLY_HEADLIGHTS,
-      "No shadows: the only light is a headlight, which casts none that can be seen. "
-      "Add a vtkLight with SetLightTypeToSceneLight()." },
-    { TEXT_TRANSLUCENT_SURFACE,
-      "A surface casts no shadow because its opacity makes it translucent. "
-      "SetTranslucentShadows(true) has it cast one as light as it is, SetCastShadow(true, "
-      "prop) a whole one; SetCastShadow(false, prop) makes it cast none in silence." },
-    { TEXT_TRANSLUCENT,
-      "A surface, or some cells of it, cast no shadow because colours or texture make them "
-      "translucent. SetCastShadow(true, prop) has all of it cast, false none and in "
-      "silence." },
-    { TEXT_CUT_OUT,
-      "A surface casts the shadow of its whole cells although its texture hides parts of "
-      "them. SetCastShadow(true, prop) says that this is meant, false takes the shadow "
-      "away." },
-    { TEXT_NOT_CHOSEN, "was not chosen with SetUseSVO" },
-    { TEXT_NOTHING_CASTS, "No shadows: nothing casts any, and GetReason(prop) says why. " },
-    { TEXT_NOTHING_RECEIVES, "No shadows: there is nothing for them to fall on. " },
-    { TEXT_CLIPPED,
-      "A surface casts no shadow because its mapper has clipping planes. Data that is "
-      "clipped before its mapper (vtkClipPolyData) casts; SetCastShadow(true, prop) has the "
-      "surface cast its whole shadow, SetCastShadow(false, prop) none in silence." },
-  };
-  const auto* const found = std::find_if(
-    std::begin(texts), std::end(texts), [&](const auto& one) { return one.first == text; });
-  return found != std::end(texts) ? found->second : std::string();
+  static_assert(std::size(svo::PassTexts) == TEXT_LIGHT + 1, "a text of each type");
+  return text >= 0 && text <= TEXT_LIGHT ? svo::PassTexts[text] : "";
 }
 
 void vtkSVORenderPass::ReleaseOctrees()
@@ -119,24 +93,9 @@ bool vtkSVORenderPass::RefineFor(double seconds)
     return false; // by an observer of a frame
   }
   const vtkSmartPointer<vtkSVORenderPass> alive(this);
-  // Of the renderers that are left; how many samples all have.
   std::set<vtkSmartPointer<vtkRenderWindow>> windows;
   const auto look = [&]
-  {
-    windows.clear();
-    int samples = 0;
-    for (const auto& entry : impl.frames.states())
-    {
-      vtkRenderer* renderer = entry.second->renderer();
-      if (renderer && renderer->GetRenderWindow() &&
-        !entry.second->refined(this->MaximumLightSamples, this->LightError))
-      {
-        windows.insert(renderer->GetRenderWindow());
-      }
-      samples += entry.second->samples();
-    }
-    return samples;
-  };
+  { return impl.frames.unrefined(this->MaximumLightSamples, this->LightError, windows); };
   const int before = look();
   impl.refining = seconds;
   for (const vtkSmartPointer<vtkRenderWindow>& window :
@@ -152,13 +111,7 @@ bool vtkSVORenderPass::RefineFor(double seconds)
 void vtkSVORenderPass::MeasureFrame(
   double& seconds, double& fixedSeconds, double& shadowSeconds) const
 {
-  const svo::PassStatistics& frame = this->Impl->statistics;
-  // What was waited for to be built will not be built again.
-  fixedSeconds = frame.octreesBuilt > 0 ? 0.0 : frame.collectTime;
-  const double maps =
-    frame.tracer.askedCasters() ? frame.tracer.lights.wall : frame.tracer.shadowTime;
-  shadowSeconds = frame.pacedShadows ? maps : 0.0;
-  seconds = fixedSeconds + frame.tracer.traceTime + frame.tracer.shadowTime + frame.presentTime;
+  this->Impl->statistics.measure(seconds, fixedSeconds, shadowSeconds);
 }
 
 void vtkSVORenderPass::Render(const vtkRenderState* state)
@@ -292,32 +245,6 @@ const svo::PassStatistics& vtkSVORenderPass::LastFrame() const
   return this->Impl->statistics;
 }
 
-vtkIdType vtkSVORenderPass::GetNumberOfCulledInstances(int step) const
-{
-  const svo::FrameStatistics& frame = this->Impl->statistics.tracer;
-  const std::uint64_t numbers[] = { frame.outsideInstances, frame.hiddenInstances,
-    frame.smallInstances, frame.sparedCasters };
-  return step >= CULLED_BY_VIEW && step <= CULLED_CASTERS ? static_cast<vtkIdType>(numbers[step])
-                                                          : 0;
-}
-
-vtkIdType vtkSVORenderPass::GetNumberOfCulledInstances() const
-{
-  return this->GetNumberOfCulledInstances(CULLED_BY_VIEW) +
-    this->GetNumberOfCulledInstances(CULLED_BY_OCCLUSION) +
-    this->GetNumberOfCulledInstances(CULLED_BY_DETAIL);
-}
-
-const char* vtkSVORenderPass::GetCastingLights() const
-{
-  return this->Impl->statistics.castingLights.c_str();
-}
-
-double vtkSVORenderPass::GetAcceptedPixelError() const
-{
-  return this->Impl->statistics.acceptedError(this->PixelError);
-}
-
 int vtkSVORenderPass::GetNumberOfOctreesBuilt() const
 {
   return this->Impl->store.built();
@@ -337,10 +264,7 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ActiveBackend: " << this->GetActiveBackend() << '\n'
-     << indent << "NumberOfCulledInstances: " << this->GetNumberOfCulledInstances() << '\n'
-     << indent << "AcceptedPixelError: " << this->GetAcceptedPixelError() << " pixels\n"
-     << indent << "CastingLights:\n"
-     << this->GetCastingLights() << indent << "Controller: " << this->GetController() << '\n'
+     << indent << "Controller: " << this->GetController() << '\n'
      << indent << "NumberOfOctreesBuilt: " << this->GetNumberOfOctreesBuilt() << '\n'
      << indent << "NumberOfOctreesInProgress: " << this->GetNumberOfOctreesInProgress() << '\n'
      << indent << "OctreeMemorySize: " << this->GetOctreeMemorySize() << " KiB\n";

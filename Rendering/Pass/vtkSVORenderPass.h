@@ -57,7 +57,6 @@ namespace svo
 class AttachedRenderer;
 class OwnCamera;
 class Tracer;
-struct FrameSettings;
 struct PassFrame;
 }
 #endif
@@ -91,38 +90,6 @@ public:
    */
   bool Refine();
 
-  /**
-   * The pixel error that the last frame accepted, in pixels of the window: PixelError, or where
-   * rays were more than a pixel apart to save time, at least the distance from ray to ray; at
-   * least the texels, as wide as they look, of shadow maps that were made coarser to save time; at
-   * least the voxels of octrees that were shown while deeper ones were built; and at least what
-   * DetailCullingThreshold left out.
-   */
-  double GetAcceptedPixelError() const;
-
-  enum CullingSteps
-  {
-    CULLED_BY_VIEW = 0,      // they lie outside of the view
-    CULLED_BY_OCCLUSION = 1, // others hide them
-    CULLED_BY_DETAIL = 2,    // they are too small: DetailCullingThreshold
-    CULLED_CASTERS = 3       // of lights' maps or volumes, once each: what they shadow is not seen
-  };
-
-  //@{
-  /**
-   * Instances that the last frame that was traced did not have to look at, by step; without one,
-   * those of the first three together, which are the eye's.
-   */
-  vtkIdType GetNumberOfCulledInstances(int step) const;
-  vtkIdType GetNumberOfCulledInstances() const;
-  //@}
-
-  /**
-   * Which lights cast shadows, for people: a line for each light that was switched on in the last
-   * frame, in the renderer's order.
-   */
-  const char* GetCastingLights() const;
-
   //@{
   /**
    * Octrees that the pass has built so far (a mesh that is seen from far and from near has
@@ -152,12 +119,6 @@ public:
   void Detach(vtkRenderer* renderer);
   bool IsTraced(vtkProp* prop) const;
   //@}
-
-  /**
-   * As GetReason(), but of a prop of an attached renderer in the last frame: empty if it cast its
-   * shadow and was traced, or did not have to be, or if it was not there.
-   */
-  std::string GetReasonInLastFrame(vtkProp* prop) const;
 
   //@{
   /**
@@ -248,8 +209,7 @@ private:
   void HearAttached(vtkRenderer* renderer, unsigned long event);
   void BeginAttachedFrame(svo::AttachedRenderer& attached);
   bool CollectFrame(svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera);
-  bool MayPreferOpenGL(svo::PassFrame& frame, bool rays, bool volumes = false);
-  svo::FrameSettings AskedSettings(bool openGL, bool rays) const;
+  bool MayPreferOpenGL(svo::PassFrame& frame, bool rays, bool volumes);
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   bool WantsSamples(const svo::PassFrame& frame) const;
   void TellOfSamples(svo::PassFrame& frame);

@@ -77,11 +77,6 @@ bool vtkSVORenderPass::IsTraced(vtkProp* prop) const
   return current && current->traces(prop);
 }
 
-std::string vtkSVORenderPass::GetReasonInLastFrame(vtkProp* prop) const
-{
-  return this->Impl->statistics.reasonOf(prop);
-}
-
 /// A frame of an attached renderer begins or ends, or the renderer itself ends.
 void vtkSVORenderPass::HearAttached(vtkRenderer* renderer, unsigned long event)
 {
@@ -135,16 +130,8 @@ void vtkSVORenderPass::BeginAttachedFrame(svo::AttachedRenderer& attached)
   if (this->Impl->severalProcesses())
   {
     // Here, and not when something is drawn: a process that shows nothing may not draw at all.
-    if (frame.settings.shadowTechnique == svo::ShadowTechnique::Buffer)
-    {
-      frame.state->shareShadows(
-        this->Impl->controller, width, height, frame.pace.distance, frame.settings);
-    }
-    else if (frame.settings.asksCasters() || frame.settings.asksHemispheres())
-    {
-      frame.state->shareCasters(this->Impl->controller,
-        static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);
-    }
+    frame.state->share(this->Impl->controller, width, height, frame.pace.distance, frame.settings,
+      static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);
   }
   const svo::CollectedScene& collected = frame.state->collected();
   if ((collected.rasterizedReceivers && frame.state->hasSomething()) || collected.shadowCatchers)

@@ -2,6 +2,7 @@
 #include "vtkSVORenderPass.h"
 
 #include "svoCameraView.h"
+#include "svoFrameChoice.h"
 #include "svoOwnCamera.h"
 #include "svoPassInternals.h"
 #include "svoSceneLights.h"
@@ -36,7 +37,10 @@ bool vtkSVORenderPass::CollectFrame(
   frame.state->beginFrame();
   svo::PassStatistics& statistics = frame.state->statistics();
   statistics.imageReduction = this->ImageReductionFactor;
-  bool disturbed = true, sampled = false;
+  bool disturbed = true;
+  svo::FrameWishes wishes{ this->Backend == BACKEND_AUTO, this->Backend == BACKEND_OPENGL, false,
+    impl.severalProcesses(),
+    [&](bool rays, bool volumes) { return this->MayPreferOpenGL(frame, rays, volumes); } };
   // As the last frame's scene says; this one's has the last word.
   bool planes = frame.state->collected().planes;
   for (int i = 1; disturbed && i <= MostCollections; ++i)
@@ -74,29 +78,17 @@ bool vtkSVORenderPass::CollectFrame(
     store.aborted = frame.abort(i < MostCollections, heard, disturbed);
     store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
 
-    const bool automatic = this->Backend == BACKEND_AUTO;
-    sampled = this->AmbientOcclusion || this->SkyLight ||
+    wishes.sampled = this->AmbientOcclusion || this->SkyLight ||
       (this->ShadowTechnique != SHADOW_NONE && svo::hasSoftLight(renderer));
-    // Samples are rays, and where these are there is no need of maps.
-    const bool volumes = this->ShadowTechnique == SHADOW_VOLUMES; // which are OpenGL's alone
-    const bool byRays = this->ShadowTechnique == SHADOW_RAYS || volumes || sampled;
-    const bool chosen = automatic && this->MayPreferOpenGL(frame, byRays, volumes && !sampled);
-    statistics.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
-    const bool rays = statistics.openGL &&
-      (byRays ||
-        (this->ShadowTechnique == SHADOW_AUTOMATIC &&
-          (!automatic || this->MayPreferOpenGL(frame, true))));
-    asked = this->AskedSettings(statistics.openGL, rays);
+    asked = svo::FrameSettings();
+    this->Fill(asked);
+    const svo::FrameChoice choice = svo::chooseFrame(asked, wishes, planes);
+    statistics.openGL = choice.openGL;
     if (this->SkyLight && this->SkyFromEnvironment)
     {
       std::string why;
       asked.skyPicture = frame.state->skyPicture(why);
       frame.tellOnce(why.empty() ? "" : why + ": the sky has SkyColor and GroundColor.", impl.said);
-    }
-    if (sampled && !statistics.openGL && impl.severalProcesses() &&
-      asked.shadowTechnique == svo::ShadowTechnique::Buffer)
-    {
-      asked.shadowTechnique = svo::ShadowTechnique::Rays; // which have all casters on all of them
     }
     svo::CollectSettings collect;
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
@@ -118,7 +110,7 @@ bool vtkSVORenderPass::CollectFrame(
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.state->collect(impl.store, store, collect);
     disturbed = disturbed || !frame.canDraw();
-    if (chosen && i < MostCollections && planes != frame.state->collected().planes)
+    if (choice.hangsOnPlanes && i < MostCollections && planes != frame.state->collected().planes)
     {
       planes = !planes;
       disturbed = true;
@@ -132,13 +124,7 @@ bool vtkSVORenderPass::CollectFrame(
   renderer->GetRenderWindow()->MakeCurrent(); // pipelines may have had others drawn
   if (this->ShadowTechnique == SHADOW_VOLUMES && !statistics.openGL)
   {
-    frame.tellOnce(
-      std::string("OpenGL draws shadow volumes, and the CPU makes this picture: exact rays "
-                  "find the same shadows.") +
-        (sampled || impl.severalProcesses() ? ""
-            : this->Backend == BACKEND_CPU  ? " SetBackendToAuto() has OpenGL draw."
-                                            : " SetBackendToOpenGL() has OpenGL draw."),
-      impl.said);
+    frame.tellOnce(svo::whyNoVolumes(wishes), impl.said);
   }
   const svo::CollectedScene& collected = frame.state->collected();
   const auto text = [this](bool wanted, int what)
@@ -176,27 +162,6 @@ bool vtkSVORenderPass::MayPreferOpenGL(svo::PassFrame& frame, bool rays, bool vo
       svo::hasSoftLight(frame.renderer));
   frame.tellOnce(missed ? "The CPU makes the picture: " + complaint : "", this->Impl->said);
   return prefers;
-}
-
-/// What the settings ask of a frame's tracer. `rays`: Automatic, or OpenGL, takes them.
-svo::FrameSettings vtkSVORenderPass::AskedSettings(bool openGL, bool rays) const
-{
-  svo::FrameSettings settings;
-  this->Fill(settings);
-  settings.shadowVolumes = openGL && this->ShadowTechnique == SHADOW_VOLUMES;
-  if (this->ShadowTechnique == SHADOW_VOLUMES)
-  {
-    settings.shadowTechnique = svo::ShadowTechnique::Rays;
-  }
-  else if (this->ShadowTechnique == SHADOW_AUTOMATIC ||
-    (openGL && this->ShadowTechnique != SHADOW_NONE))
-  {
-    settings.shadowTechnique = rays ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
-  }
-  // Processes merge the CPU's maps.
-  settings.lightCode = openGL &&
-    (settings.shadowTechnique != svo::ShadowTechnique::Buffer || !this->Impl->severalProcesses());
-  return settings;
 }
 
 /// Whether samples of lights are missing that the frame takes in further steps.

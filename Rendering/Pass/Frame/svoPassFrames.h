@@ -7,14 +7,17 @@
 #include "svoRendererState.h"
 #include "svoTracer.h"
 
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
+
 #include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 #include <vector>
-
-class vtkRenderer;
 
 namespace svo
 {
@@ -60,6 +63,24 @@ public:
   }
 
   bool idle() const { return this->Frames.empty(); }
+
+  /// The windows of those renderers that may have more samples of their lights, up to `most` or
+  /// that error; how many samples all have.
+  int unrefined(int most, double error, std::set<vtkSmartPointer<vtkRenderWindow>>& windows) const
+  {
+    int samples = 0;
+    windows.clear();
+    for (const auto& [key, state] : this->Kept)
+    {
+      vtkRenderer* renderer = state->renderer();
+      if (renderer && renderer->GetRenderWindow() && !state->refined(most, error))
+      {
+        windows.insert(renderer->GetRenderWindow());
+      }
+      samples += state->samples();
+    }
+    return samples;
+  }
 
   /// The frame of a renderer that is in progress; null if there is none.
   PassFrame* of(vtkRenderer* renderer) const

@@ -44,10 +44,21 @@ struct PassStatistics
     return found != this->reasons.end() ? found->second : std::string();
   }
 
+  /// vtkSVORenderPass::MeasureFrame()
+  void measure(double& seconds, double& fixedSeconds, double& shadowSeconds) const
+  {
+    // What was waited for to be built will not be built again.
+    fixedSeconds = this->octreesBuilt > 0 ? 0.0 : this->collectTime;
+    const double maps =
+      this->tracer.askedCasters() ? this->tracer.lights.wall : this->tracer.shadowTime;
+    shadowSeconds = this->pacedShadows ? maps : 0.0;
+    seconds = fixedSeconds + this->tracer.traceTime + this->tracer.shadowTime + this->presentTime;
+  }
+
   /// Pixels of the window from ray to ray.
   double sampleDistance() const { return this->pace.distance * this->imageReduction; }
 
-  /// vtkSVORenderPass::GetAcceptedPixelError()
+  /// vtkSVOPassSettings::GetAcceptedPixelError()
   double acceptedError(double pixelError) const
   {
     const double distance = this->sampleDistance();

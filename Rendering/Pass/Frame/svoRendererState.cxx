@@ -111,9 +111,17 @@ void RendererState::collect(
   this->Statistics.instances = static_cast<int>(this->Collected.scene.instances.size());
 }
 
-void RendererState::shareShadows(vtkMultiProcessController* controller, int width, int height,
-  double distance, FrameSettings settings)
+void RendererState::share(vtkMultiProcessController* controller, int width, int height,
+  double distance, FrameSettings settings, std::size_t memoryLimit)
 {
+  if (settings.shadowTechnique != ShadowTechnique::Buffer)
+  {
+    if (settings.asksCasters() || settings.asksHemispheres())
+    {
+      this->OtherCasters.exchange(controller, memoryLimit, this->Collected);
+    }
+    return;
+  }
   const View eye = this->aim(width, height, distance);
   ControllerProcesses processes(controller);
   settings.receiverMaps = this->Collected.rasterizedReceivers;

@@ -50,16 +50,11 @@ public:
   /// counts.
   void collect(OctreeStore& store, const StoreOptions& options, CollectSettings settings);
 
-  /// Adds other processes' casters to the collected scene; see SharedCasters.
-  void shareCasters(vtkMultiProcessController* controller, std::size_t memoryLimit)
-  {
-    this->OtherCasters.exchange(controller, memoryLimit, this->Collected);
-  }
-
-  /// Merges the shadow buffers of the collected scene with other processes'; see
-  /// Tracer::shareShadows. The rest as trace() will be told.
-  void shareShadows(vtkMultiProcessController* controller, int width, int height, double distance,
-    FrameSettings settings);
+  /// Merges the shadow buffers of the collected scene with other processes'
+  /// (Tracer::shareShadows()), or adds their casters to the scene, of `memoryLimit` bytes at most
+  /// (SharedCasters). The rest as trace() will be told. A collective call.
+  void share(vtkMultiProcessController* controller, int width, int height, double distance,
+    FrameSettings settings, std::size_t memoryLimit);
 
   /// True if there is anything to trace, here or, with shadows to be seen here, elsewhere.
   bool hasSomething() const
