@@ -447,7 +447,7 @@ void OpenGLTracer::describeSamples(
     2.0 / (view.viewToClip[0][0] * view.width), 2.0 / (view.viewToClip[1][1] * view.height));
   code.floats.push_back({ "svoFilter", 4,
     { static_cast<float>(view.parallel ? 0.0 : edge),
-      static_cast<float>(view.parallel ? edge : 0.0), LightFilter::evennessOf(code.samples),
+      static_cast<float>(view.parallel ? edge : 0.0), static_cast<float>(code.samples),
       settings.filterLightSamples ? 1.0f : 0.0f } });
 }
 

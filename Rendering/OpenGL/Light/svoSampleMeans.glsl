@@ -6,14 +6,15 @@
 uniform sampler2DArray svoSums;
 uniform sampler2D svoPlacesAround; // svoPlaces and svoPlanes of svoShadowMaskShader.glsl
 uniform sampler2D svoPlanesAround;
-uniform vec4 svoFilter; // a pixel's edge, a unit away; or in parallel views; evenness; 1: it is on
+uniform vec4 svoFilter; // a pixel's edge, a unit away; or in parallel views; samples a pixel; 1: it is on
 
 const float svoHardly = 1.0 / 1024.0; // what is known without samples counts
 
 int svoKnownLayer = -1; // whose means are these
 vec3 svoKnownMeans;
 
-vec3 svoMeansOf(ivec2 pixel, int layer, vec4 own, vec3 place, vec3 facet, vec3 normal)
+// `ofShare`: of LightFilter::Evenness.
+vec3 svoMeansOf(ivec2 pixel, int layer, float ofShare, vec4 own, vec3 place, vec3 facet, vec3 normal)
 {
   vec3 chosen = own.rgb / own.w;
   if (svoFilter.w == 0.0)
@@ -48,10 +49,11 @@ vec3 svoMeansOf(ivec2 pixel, int layer, vec4 own, vec3 place, vec3 facet, vec3 n
         squares += some.rgb * some.rgb / some.w;
       }
     }
-    // What chance explains.
+    // What chance explains (LightFilter::spreadOf()).
     vec3 mean = sums.rgb / sums.w;
     vec3 about = (sums.rgb + 0.5) / (sums.w + 1.0);
-    vec3 spread = max(about * (1.0 - about), vec3(0.0)) / svoFilter.z;
+    vec3 even = max(min(ofShare * min(about, 1.0 - about), vec3(svoFilter.z)), vec3(1.0));
+    vec3 spread = max(about * (1.0 - about), vec3(0.0)) / sqrt(sqrt(sqrt(even * even * even)));
     vec3 may = 3.0 * sqrt(spread / max(sums.w, 1.0));
     low = max(low, mean - may);
     high = min(high, mean + may);
@@ -84,7 +86,8 @@ float svoShareAt(ivec2 pixel, int number, vec3 position, vec3 facet, vec3 normal
       own = svoHardly *
         vec4(svoOpen(first, normal), svoOpen(first + 1, normal), svoOpen(first + 2, normal), 1.0);
     }
-    svoKnownMeans = svoMeansOf(pixel, svoKnownLayer, own, position, facet, normal);
+    float ofShare = first < svoLampCount ? 1e30 : 2.0 * svoFilter.z;
+    svoKnownMeans = svoMeansOf(pixel, svoKnownLayer, ofShare, own, position, facet, normal);
   }
   return svoKnownMeans[sum % 4];
 }

@@ -5,6 +5,7 @@
 
 #include "vtkSVOTracingModule.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,6 +42,10 @@ struct SampledPlanes
   int count = 0;
 
   bool any() const { return this->count > 0; }
+  bool isOfLight(int plane) const
+  {
+    return std::count(this->ofLights.begin(), this->ofLights.end(), plane) > 0;
+  }
 };
 
 /// What of the light that is sampled reaches them.

@@ -138,8 +138,9 @@ void sumRows(const LightFilter::Pixels& pixels, std::size_t first, int rows, Row
 class Interval
 {
 public:
-  HWY_INLINE Interval(const Sums& pixel, float even)
-    : evenness(hn::Set(Floats(), even))
+  HWY_INLINE Interval(const Sums& pixel, const LightFilter::Evenness& even)
+    : samples(hn::Set(Floats(), even.samples))
+    , ofShare(hn::Set(Floats(), even.ofShare))
     , each(hn::Max(pixel.count, hn::Set(Floats(), 1.0f)))
     , low(hn::Set(Floats(), -1e30f))
     , high(hn::Set(Floats(), 1e30f))
@@ -173,14 +174,17 @@ public:
   Lanes variance() const { return this->chance; } // of the mean, by chance
 
 private:
-  /// What chance may do: samples vary by no more than m (1 - m) where their mean is m, and are
-  /// spread evenly. As if one more were in between.
+  /// LightFilter::spreadOf()
   HWY_INLINE Lanes spreadOf(const Sums& sums) const
   {
     const Floats d;
     const auto one = hn::Set(d, 1.0f);
     const auto about = hn::Div(hn::Add(sums.sum, hn::Set(d, 0.5f)), hn::Add(sums.count, one));
-    return hn::Div(hn::Max(hn::Mul(about, hn::Sub(one, about)), hn::Zero(d)), this->evenness);
+    const auto rest = hn::Sub(one, about);
+    const auto n =
+      hn::Max(hn::Min(hn::Mul(this->ofShare, hn::Min(about, rest)), this->samples), one);
+    const auto cube = hn::Mul(hn::Mul(n, n), n);
+    return hn::Div(hn::Max(hn::Mul(about, rest), hn::Zero(d)), hn::Sqrt(hn::Sqrt(hn::Sqrt(cube))));
   }
   HWY_INLINE Lanes varianceOf(const Sums& sums) const
   {
@@ -190,7 +194,7 @@ private:
   // Of standard deviations and of variances; of values around them these left the smallest errors
   // over seven scenes of penumbras, closed places and skies.
   static constexpr float Confidence = 3.0f, Unlikely = 4.0f;
-  const Lanes evenness, each;
+  const Lanes samples, ofShare, each;
   Lanes low, high, chosen, chance;
   hn::Mask<Floats> open;
 };
@@ -216,7 +220,7 @@ void findMeans(const LightFilter::Pixels& pixels, std::size_t first, int rows, c
         same[step + LightFilter::Reach] =
           hn::And(known, Surface(pixels.surfaces, beside).same(middle, slope, pixel, step));
       }
-      Interval interval(Sums(pixels, at, known), pixels.evenness);
+      Interval interval(Sums(pixels, at, known), pixels.even);
       for (int scale = 0; scale < Scales; ++scale)
       {
         Sums square(sums.of[scale][middleRow] + x);

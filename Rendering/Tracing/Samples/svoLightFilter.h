@@ -43,21 +43,37 @@ struct SampledSurfaces
 
 namespace LightFilter
 {
-/// So many times less than that of independent samples is the variance of the mean of so many:
-/// errors of the sequence fall as N to the -0.7, so variances by N^0.4 more. Of roots all machines
-/// have the same bits.
-inline float evennessOf(int samples)
+/// What is sampled, of which each pixel has so many samples, spread evenly: errors of the sequence
+/// fall as N to the -0.7, so variances by N^0.4 more than those of independent samples.
+struct Evenness
 {
-  const float n = static_cast<float>(samples);
-  return std::sqrt(std::sqrt(std::sqrt(n * n * n)));
-}
+  float samples;
+  /// Of how many N is twice the number that see what is less, the light or what blocks it: that may
+  /// be anywhere all around, and of 32 samples one or two fall on it as they like. A light's disc
+  /// is cut at an edge; there N is all.
+  float ofShare;
 
-/// Of the mean of so many, by chance: samples vary by no more than m (1 - m) where their mean is m.
-/// As if one more were in between.
-inline float varianceOf(float sum, float count, float evenness)
+  static Evenness allAround(int samples)
+  {
+    return { static_cast<float>(samples), 2.0f * static_cast<float>(samples) };
+  }
+  static Evenness ofLight(int samples) { return { static_cast<float>(samples), 1e30f }; }
+};
+
+/// How samples vary by chance: by no more than m (1 - m) where their mean is m, as if one more were
+/// in between. Of roots all machines have the same bits.
+inline float spreadOf(float sum, float count, const Evenness& even)
 {
   const float about = (sum + 0.5f) / (count + 1.0f);
-  return std::max(about * (1.0f - about), 0.0f) / evenness / std::max(count, 1.0f);
+  const float rest = 1.0f - about;
+  const float n = std::max(std::min(even.ofShare * std::min(about, rest), even.samples), 1.0f);
+  return std::max(about * rest, 0.0f) / std::sqrt(std::sqrt(std::sqrt(n * n * n)));
+}
+
+/// Of the mean of `count` of them.
+inline float varianceOf(float sum, float count, const Evenness& even)
+{
+  return spreadOf(sum, count, even) / std::max(count, 1.0f);
 }
 
 constexpr int Reach = 8;   // pixels beyond the one in the middle
@@ -73,7 +89,7 @@ struct Pixels
   const float *sum, *count;
   float* mean;     // is set,
   float* variance; // and that which chance gives it
-  float evenness;  // evennessOf() the samples
+  Evenness even;
 };
 
 /// Of `rows` rows of a block whose first pixel is number `first` in all arrays. Pixels without

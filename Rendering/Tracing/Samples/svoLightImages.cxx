@@ -133,14 +133,17 @@ void LightImages::findMeans(int blockX, int blockY, bool filtered)
   const int y0 = LightFilter::Block * blockY;
   const int rows = std::min(LightFilter::Block, 8 * this->TilesY - y0);
   const std::size_t first = this->at(LightFilter::Block * blockX, y0);
-  const float evenness = LightFilter::evennessOf(this->Samples);
   SampleNoise noise;
-  for (Plane& plane : this->Planes)
+  for (std::size_t p = 0; p < this->Planes.size(); ++p)
   {
+    Plane& plane = this->Planes[p];
+    const LightFilter::Evenness even = this->Sampled.isOfLight(static_cast<int>(p))
+      ? LightFilter::Evenness::ofLight(this->Samples)
+      : LightFilter::Evenness::allAround(this->Samples);
     if (filtered)
     {
       LightFilter::filter({ this->Surfaces, this->Stride, plane.sum.data(), plane.count.data(),
-                            plane.mean.data(), this->Variance.data(), evenness },
+                            plane.mean.data(), this->Variance.data(), even },
         first, rows);
     }
     for (int row = 0; row < rows; ++row)
@@ -153,7 +156,7 @@ void LightImages::findMeans(int blockX, int blockY, bool filtered)
         {
           // No mean is read where there is no count.
           plane.mean[i] = count > 0.0f ? plane.sum[i] / count : 0.0f;
-          this->Variance[i] = LightFilter::varianceOf(plane.sum[i], count, evenness);
+          this->Variance[i] = LightFilter::varianceOf(plane.sum[i], count, even);
         }
         const bool sampled = this->Surfaces.pixel[i] >= 0.0f && count >= 1.0f;
         noise.squares += sampled ? static_cast<double>(this->Variance[i]) : 0.0;
