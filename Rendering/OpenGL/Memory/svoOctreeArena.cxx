@@ -44,6 +44,10 @@ bool OctreeArena::hold(const std::vector<const Octree*>& octrees, std::size_t li
     ids.insert(octree->id());
   }
   this->Asked = ids.size();
+  if (this->mostlyGone())
+  {
+    this->release();
+  }
   const bool fits = this->bytes() <= limit && this->add(octrees, limit);
   if (!fits)
   {
@@ -52,14 +56,27 @@ bool OctreeArena::hold(const std::vector<const Octree*>& octrees, std::size_t li
   return fits;
 }
 
+/// True if octrees that nobody has any more fill half of what is in use. All that is sent anew then
+/// is no more than they were.
+bool OctreeArena::mostlyGone() const
+{
+  std::size_t gone = 0, kept = 0;
+  for (const auto& [id, held] : this->Blocks)
+  {
+    (held.octree.expired() ? gone : kept) += held.size.node * this->Nodes.texelBytes() +
+      held.size.word * this->Lists.texelBytes() + held.size.corner * this->Triangles.texelBytes();
+  }
+  return gone > kept;
+}
+
 std::uint32_t OctreeArena::rootOf(const Octree& octree) const
 {
-  return this->Blocks.at(octree.id()).node;
+  return this->Blocks.at(octree.id()).begin.node;
 }
 
 std::uint32_t OctreeArena::firstOf(const Octree& octree) const
 {
-  const Block& block = this->Blocks.at(octree.id());
+  const Block& block = this->Blocks.at(octree.id()).begin;
   return octree.hasPlanes() ? block.word : block.corner / 3;
 }
 
@@ -83,7 +100,7 @@ bool OctreeArena::add(const std::vector<const Octree*>& octrees, std::size_t lim
       return false;
     }
     this->send(*octree, lists, this->End);
-    this->Blocks.emplace(octree->id(), this->End);
+    this->Blocks.emplace(octree->id(), Held{ WeakOctree(*octree), this->End, size });
     this->End.node += size.node;
     this->End.word += size.word;
     this->End.corner += size.corner;

@@ -1,5 +1,6 @@
 // Octrees and their triangles in the memory of an OpenGL context, as svoRayWalk.glsl reads them.
-// Each is sent once, however many instances, views and frames it is in.
+// Each is sent once, however many instances, views and frames it is in, and goes when it is gone
+// from the processor's memory and such octrees have come to fill half of what is in use.
 #ifndef svoOctreeArena_h
 #define svoOctreeArena_h
 
@@ -50,13 +51,19 @@ private:
   {
     std::uint32_t node = 0, word = 0, corner = 0;
   };
+  struct Held
+  {
+    WeakOctree octree;
+    Block begin, size;
+  };
+  bool mostlyGone() const;
   bool add(const std::vector<const Octree*>& octrees, std::size_t limit);
   bool makeRoom(const Block& needed, std::size_t limit);
   void send(const Octree& octree, const ShortLists& lists, const Block& at);
 
-  std::map<std::uint64_t, Block> Blocks; // by Octree::id()
-  std::size_t Asked = 0;                 // of them, last
-  Block End;                             // of what is in use
+  std::map<std::uint64_t, Held> Blocks; // by Octree::id()
+  std::size_t Asked = 0;                // of them, last
+  Block End;                            // of what is in use
   BufferTexture Nodes{ BufferTexture::Texel::FourWords };
   BufferTexture Lists{ BufferTexture::Texel::Word };
   BufferTexture Triangles{ BufferTexture::Texel::FourFloats };
