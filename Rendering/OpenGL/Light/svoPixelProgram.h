@@ -4,6 +4,7 @@
 #define svoPixelProgram_h
 
 #include "svoShaderValues.h"
+#include "vtkSVOOpenGLModule.h"
 
 #include <string>
 #include <utility>
@@ -18,7 +19,7 @@ class PixelProgram
 {
 public:
   /// True if the context has compute shaders (OpenGL 4.3).
-  static bool hasCompute();
+  static VTKSVOOPENGL_EXPORT bool hasCompute();
 
   /// Makes it of a text with what svoPixelMain.glsl asks. False, and `words` has OpenGL's, if it
   /// refuses.

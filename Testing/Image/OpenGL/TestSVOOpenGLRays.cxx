@@ -4,6 +4,7 @@
 #include "../../Unit/svoTestMessages.h"
 #include "svoImageCases.h"
 #include "svoOpenGL.h"
+#include "svoPixelProgram.h"
 #include "svoTestStage.h"
 
 #include "vtkActorCollection.h"
@@ -17,6 +18,7 @@
 #include "vtkRenderWindow.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <string>
 
@@ -179,6 +181,13 @@ int TestSVOOpenGLRays(int, char*[])
     stage.addSun(3.0, -2.0, 4.0);
     compare("a sun", stage, AtEdges, checks);
     compareAgain(stage, checks);
+    const std::string version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+    const bool computes = svo::PixelProgram::hasCompute();
+    std::cout << version << (computes ? ": compute shaders ask\n" : ": fragments ask\n");
+    const char* asked = std::getenv("MESA_GL_VERSION_OVERRIDE");
+    const bool least =
+      asked && asked == std::string("3.2") && version.find("Mesa") < version.size();
+    checks.expect(!least || !computes, "OpenGL 3.2 has no compute shaders");
   }
   {
     Stage stage;
