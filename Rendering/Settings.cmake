@@ -392,7 +392,8 @@ vtksvo_setting(GPUMemoryLimit memory 2097152
   PANEL advanced LABEL "GPU Memory Limit (KiB)"
   SAYS
     "Octrees in the GPU's memory, with the OpenGL backend, and shadow maps, or a picture of the light on what is seen. What
-     does not fit is answered by shadow maps of the CPU, with a message; without room for the picture a frame takes longer.")
+     does not fit is answered by shadow maps of the CPU, with a message; without room for the picture a frame takes longer.
+     Renderers of a window share octrees; where those of all do not fit they are sent in each frame.")
 
 vtksvo_setting(ShadowsForEverything bool false
   TABLE host

@@ -25,7 +25,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <iomanip>
+#include <iterator>
 #include <locale>
+#include <memory>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -143,9 +146,13 @@ private:
   std::string prepare(
     const Scene& scene, const View& view, const FrameSettings& settings, bool maps);
   std::string hold(const Scene& scene, std::size_t limit);
+  void releaseScene();
+  /// True if there are octrees that the scene has not: of earlier frames, or other renderers.
+  /// Whoever needs their room has to release() all, and ask again.
+  bool holdsOthers() const { return this->Octrees->count() > this->Asked; }
   std::size_t bytesOfScene() const
   {
-    return this->Octrees.bytes() + this->Casters.bytes() + this->Seen.bytes();
+    return this->Octrees->bytes() + this->Casters.bytes() + this->Seen.bytes();
   }
   void describe(const Scene& scene, const View& view, const FrameSettings& settings,
     const std::string& constants);
@@ -157,7 +164,9 @@ private:
   FrameStatistics Statistics;
   LightCode Code;
   EyeCode Eye;
-  OctreeArena Octrees;
+  std::shared_ptr<OctreeArena> Octrees; // the context's, once something is asked
+  std::uint64_t Emptied = 0;            // it, when all of the scene was held
+  std::size_t Asked = 0;                // of it
   SeenSurfaces Seen;
   ShaderCasters Casters;
   DrawnMaps Drawn;
@@ -213,6 +222,10 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   }
   if (asked)
   {
+    if (!this->Octrees)
+    {
+      this->Octrees = OctreeArena::of(settings.context);
+    }
     std::string whyNot = "OpenGL shaders have no room for rays to so many lights";
     if (maps || lights <= MostLights)
     {
@@ -222,10 +235,10 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
             static_cast<int>(lights) + settings.ambientOcclusion + 3 * settings.skyLight, sampled,
             false, settings.shadowVolumes)
         : 0;
-      if (this->Octrees.holdsOthers() &&
+      if (this->WhyNot.empty() && this->holdsOthers() &&
         (!whyNot.empty() || this->bytesOfScene() + mask > settings.gpuMemoryLimit))
       {
-        this->Octrees.release();
+        this->Octrees->release();
         this->Version = 0;
         whyNot = this->prepare(scene, view, settings, maps);
       }
@@ -260,7 +273,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   {
     const std::size_t others = this->bytesOfScene() +
       ShadowMask::bytesOf(view.width, view.height, this->Code.count(), 0, false, true);
-    this->Code.remark = this->Volumes.describe(scene, this->Casters.known(), this->Octrees, view,
+    this->Code.remark = this->Volumes.describe(scene, this->Casters.known(), *this->Octrees, view,
       settings, settings.gpuMemoryLimit - std::min(others, settings.gpuMemoryLimit), parallelFor,
       this->Code);
   }
@@ -268,7 +281,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   {
     this->Volumes.release();
   }
-  this->Seen.describe(scene, view, this->Octrees, constants, this->Eye);
+  this->Seen.describe(scene, view, *this->Octrees, constants, this->Eye);
   this->Other->releaseLayers();
   this->Nothing.width = view.width;
   this->Nothing.height = view.height;
@@ -293,28 +306,27 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
 std::string OpenGLTracer::prepare(
   const Scene& scene, const View& view, const FrameSettings& settings, bool maps)
 {
-  const bool known =
-    scene.version != 0 && scene.version == this->Version && this->Limit == settings.gpuMemoryLimit;
+  const bool known = scene.version != 0 && scene.version == this->Version &&
+    this->Limit == settings.gpuMemoryLimit && this->Emptied == this->Octrees->emptied();
   if (!known)
   {
     this->WhyNot = this->hold(scene, settings.gpuMemoryLimit);
     this->UsualDistance = usualOcclusionDistance(scene);
     if (!this->WhyNot.empty())
     {
-      this->Octrees.release();
-      this->Casters.release();
-      this->Seen.release();
+      this->releaseScene();
     }
     this->Version = scene.version;
     this->Limit = settings.gpuMemoryLimit;
+    this->Emptied = this->Octrees->emptied();
   }
   if (this->WhyNot.empty() && !maps)
   {
     this->Casters.aim(view);
   }
   return this->WhyNot.empty() && maps
-    ? this->Drawn.draw(scene, this->Casters.known(), this->Octrees, this->Casters.alphas(), view,
-        settings, settings.gpuMemoryLimit - this->bytesOfScene())
+    ? this->Drawn.draw(scene, this->Casters.known(), *this->Octrees, this->Casters.alphas(), view,
+        settings, settings.gpuMemoryLimit - std::min(this->bytesOfScene(), settings.gpuMemoryLimit))
     : this->WhyNot;
 }
 
@@ -341,10 +353,14 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
     }
     octrees.push_back(&octree);
   }
+  const auto idOf = [](const Octree* octree) { return octree->id(); };
+  std::set<std::uint64_t> ids;
+  std::transform(octrees.begin(), octrees.end(), std::inserter(ids, ids.end()), idOf);
+  this->Asked = ids.size();
   for (int once = 0; once < 2; ++once)
   {
-    const bool held = this->Octrees.hold(octrees, limit);
-    if (held && !(this->Casters.place(scene, this->Octrees) && this->Seen.place(scene, seen)))
+    const bool held = this->Octrees->hold(octrees, limit);
+    if (held && !(this->Casters.place(scene, *this->Octrees) && this->Seen.place(scene, seen)))
     {
       return "OpenGL has no room for so many casters";
     }
@@ -352,11 +368,11 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
     {
       return {};
     }
-    if (held && !this->Octrees.holdsOthers())
+    if (held && !this->holdsOthers())
     {
       break;
     }
-    this->Octrees.release(); // of earlier frames
+    this->Octrees->release();
   }
   return "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit";
 }
@@ -389,9 +405,9 @@ void OpenGLTracer::describe(
     std::string(svoUnfold) + svoOctreeWalk + svoColorAlpha + svoRayWalk;
   this->Code.text = Text.c_str();
   this->Code.costly = true;
-  this->Code.textures = { { "svoNodes", this->Octrees.nodes().name() },
-    { "svoLists", this->Octrees.lists().name() },
-    { "svoTriangles", this->Octrees.triangles().name() } };
+  this->Code.textures = { { "svoNodes", this->Octrees->nodes().name() },
+    { "svoLists", this->Octrees->lists().name() },
+    { "svoTriangles", this->Octrees->triangles().name() } };
   this->describeSamples(scene, view, settings);
   this->Code.constants = constants + constantsOf(this->Code, settings);
   sources.values.resize(4 * static_cast<std::size_t>(this->Code.count()));
@@ -451,11 +467,21 @@ void OpenGLTracer::describeSamples(
       settings.filterLightSamples ? 1.0f : 0.0f } });
 }
 
-void OpenGLTracer::releaseGraphicsResources()
+/// Frees what a scene has in OpenGL's memory, but for octrees of other renderers.
+void OpenGLTracer::releaseScene()
 {
-  this->Octrees.release();
+  if (this->Octrees.use_count() == 1)
+  {
+    this->Octrees->release();
+  }
   this->Casters.release();
   this->Seen.release();
+}
+
+void OpenGLTracer::releaseGraphicsResources()
+{
+  this->releaseScene();
+  this->Octrees.reset();
   this->Drawn.release();
   this->Volumes.forget();
   this->Sky.release();

@@ -1,10 +1,10 @@
 #include "svoOctreeArena.h"
 
+#include "svoEraseIf.h"
 #include "svoShortLists.h"
 #include "svoSurface.h"
 
 #include <algorithm>
-#include <set>
 
 #include <glm/vec4.hpp>
 
@@ -36,14 +36,23 @@ glm::vec2 inFloats(std::uint32_t number)
   return { number / 4096, number % 4096 };
 }
 
+std::shared_ptr<OctreeArena> OctreeArena::of(const void* context)
+{
+  static std::map<const void*, std::weak_ptr<OctreeArena>> arenas;
+  eraseIf(arenas, [](const auto& entry) { return entry.second.expired(); });
+  std::weak_ptr<OctreeArena> alone;
+  std::weak_ptr<OctreeArena>& known = context ? arenas[context] : alone;
+  std::shared_ptr<OctreeArena> found = known.lock();
+  if (!found)
+  {
+    found = std::make_shared<OctreeArena>();
+    known = found;
+  }
+  return found;
+}
+
 bool OctreeArena::hold(const std::vector<const Octree*>& octrees, std::size_t limit)
 {
-  std::set<std::uint64_t> ids;
-  for (const Octree* octree : octrees)
-  {
-    ids.insert(octree->id());
-  }
-  this->Asked = ids.size();
   if (this->mostlyGone())
   {
     this->release();
@@ -217,6 +226,7 @@ void OctreeArena::send(const Octree& octree, const ShortLists& lists, const Bloc
 
 void OctreeArena::release()
 {
+  ++this->Emptied;
   this->Blocks.clear();
   this->End = {};
   this->Nodes.release();

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -24,14 +25,17 @@ glm::vec2 inFloats(std::uint32_t number);
 class OctreeArena
 {
 public:
+  /// The one of a context, FrameNeeds::context. Its last owner releases it.
+  static std::shared_ptr<OctreeArena> of(const void* context);
+
   /// Has these octrees, all with a surface or planes and not empty, in memory, beside those of
-  /// earlier frames. False, and nothing is there, if all of them do not fit into `limit` (bytes),
-  /// or OpenGL has no room: alone they may fit.
+  /// earlier frames and other renderers. False, and nothing is there, if all of them do not fit
+  /// into `limit` (bytes), or OpenGL has no room: alone they may fit.
   bool hold(const std::vector<const Octree*>& octrees, std::size_t limit);
-  /// True if it has some that hold() was not asked for last: whoever needs their room has to
-  /// release() all, and ask again.
-  bool holdsOthers() const { return this->Blocks.size() > this->Asked; }
+  std::size_t count() const { return this->Blocks.size(); }
   void release();
+  /// How often it was emptied: whoever shares it asks hold() again when that was another's doing.
+  std::uint64_t emptied() const { return this->Emptied; }
 
   /// The node at which rays through an octree that is held begin; its first triangle, or plane.
   std::uint32_t rootOf(const Octree& octree) const;
@@ -62,8 +66,8 @@ private:
   void send(const Octree& octree, const ShortLists& lists, const Block& at);
 
   std::map<std::uint64_t, Held> Blocks; // by Octree::id()
-  std::size_t Asked = 0;                // of them, last
-  Block End;                            // of what is in use
+  std::uint64_t Emptied = 0;
+  Block End; // of what is in use
   BufferTexture Nodes{ BufferTexture::Texel::FourWords };
   BufferTexture Lists{ BufferTexture::Texel::Word };
   BufferTexture Triangles{ BufferTexture::Texel::FourFloats };

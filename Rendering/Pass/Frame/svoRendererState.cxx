@@ -206,6 +206,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   settings.writeSlopes = pace.distance == 1.0 && !samplePositions().empty();
   settings.writeNames = false;
   this->Presenter->Enter(window);
+  settings.context = window;
   const bool wantsCode = settings.lightCode;
   const auto refusal = [this]
   { return this->Mask.refusal().empty() ? this->Boxes.refusal() : this->Mask.refusal(); };

@@ -20,6 +20,9 @@ class SkyPicture;
 /// What a frame is to bring beside its picture, and what it may leave out.
 struct FrameNeeds
 {
+  /// Names the OpenGL context that is current: tracers with the same one share octrees there. Null:
+  /// they share none.
+  const void* context = nullptr;
   /// Of the texels of a shadow map so many along an edge become one, and may look so many times as
   /// wide: the same maps, coarser, in less time.
   double shadowCoarseness = 1.0;

@@ -12,7 +12,7 @@ namespace
 {
 // Who adds a member to one of these adds it below.
 static_assert(
-  sizeof(View) == 496 && sizeof(FrameNeeds) == 48, "all that pictures depend on is compared");
+  sizeof(View) == 496 && sizeof(FrameNeeds) == 56, "all that pictures depend on is compared");
 
 using Bytes = std::vector<unsigned char>;
 

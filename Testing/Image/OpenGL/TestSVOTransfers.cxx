@@ -8,6 +8,7 @@
 #include "vtkSphereSource.h"
 #include "vtkTesting.h"
 
+#include <algorithm>
 #include <iostream>
 #include <string>
 
@@ -146,6 +147,68 @@ void count(const std::string& name, void (*choose)(vtkSVORenderPass*), Checks& c
   capture(stage.window);
   checks.expect(transfers.reads > 0, name + ": a picture is read");
 }
+
+/// Two renderers that show one mesh, and each another.
+void share(Checks& checks)
+{
+  Stage left(240, 120);
+  left.renderer->SetViewport(0.0, 0.0, 0.5, 1.0);
+  Stage right(left, 0.5, 0.0, 1.0, 1.0);
+  right.renderer->AddActor(left.add(ball(0.6, 0.4, 0.0, 1.2), 0.9, 0.5, 0.2));
+  left.add(ring(0.5, -0.8, 0.0, 0.8), 0.3, 0.5, 0.9);
+  vtkNew<vtkSphereSource> other;
+  other->SetCenter(-0.8, 0.0, 0.8);
+  other->SetThetaResolution(32);
+  other->SetPhiResolution(32);
+  for (Stage* stage : { &left, &right })
+  {
+    stage->addGround();
+    stage->addSun(3.0, -2.0, 4.0);
+    stage->pass->SetBackendToOpenGL();
+    stage->pass->SetShadowTechniqueToShadowRays();
+    stage->pass->SetMaximumLevel(7);
+    stage->pass->SetOctreeMemoryLimit(2000);
+  }
+  right.renderer->DrawOff();
+  left.window->Render();
+  countOthers();
+  const vtkIdType alone = left.pass->GetGPUMemory();
+  right.renderer->DrawOn();
+  const long long second = drawn(left).sent;
+  right.add(other, 0.3, 0.5, 0.9);
+  const Picture expected = capture(left.window);
+  const auto expectSame = [&](const std::string& sentence)
+  { checks.expect(difference(expected, capture(left.window)).largest == 0, sentence); };
+  left.pass->ReleaseGraphicsResources(left.window);
+  const long long again = drawn(left).sent;
+  checks.expect(second < 10000, "a second renderer finds octrees there");
+  checks.expect(again < 10000, "one of both has released them, and they are there");
+  expectSame("the same picture");
+  for (int pose = 20; pose >= 0; --pose)
+  {
+    other->SetRadius(0.5 + 0.01 * pose);
+    left.window->Render();
+  }
+  expectSame("what is gone has made room for one, and the other has its octrees");
+  const vtkIdType limit = alone - alone / 8; // it had some to spare
+  for (Stage* stage : { &left, &right })
+  {
+    stage->pass->SetGPUMemoryLimit(static_cast<int>(limit));
+  }
+  expectSame("there is room for the octrees of one at a time");
+  const long long each = drawn(left).sent;
+  const vtkIdType most = std::max(left.pass->GetGPUMemory(), right.pass->GetGPUMemory());
+  std::cout << "two renderers: " << second << " bytes for the second, " << again
+            << " again; with room for one " << each << ", " << most << " of " << limit << " KiB\n";
+  checks.expect(each > 100000, "they take turns");
+  checks.expect(most > 0 && most <= limit, "they stay within the limit");
+  right.renderer->SetPass(nullptr);
+  right.window->RemoveRenderer(right.renderer);
+  left.window->Finalize();
+  right.window->AddRenderer(right.renderer);
+  right.usePass(true);
+  expectSame("in another context");
+}
 }
 
 int TestSVOTransfers(int, char*[])
@@ -157,6 +220,7 @@ int TestSVOTransfers(int, char*[])
     "maps", [](vtkSVORenderPass* pass) { pass->SetShadowTechniqueToShadowBuffer(); }, checks);
   count(
     "volumes", [](vtkSVORenderPass* pass) { pass->SetShadowTechniqueToShadowVolumes(); }, checks);
+  share(checks);
   return checks.exitCode();
 }
 
