@@ -422,6 +422,8 @@ vtksvo_setting(ImageReductionFactor int 1
   MORE
     "`MaximumImageSampleDistance` holds in the window. Named as in vtkSynchronizedRenderers.")
 
+vtksvo_statistic(ActiveBackend int OF "openGL ? BACKEND_OPENGL : BACKEND_CPU" PARAVIEW
+  SAYS "The backend that the last frame took: BACKEND_CPU (1), also before the first, or BACKEND_OPENGL (2).")
 vtksvo_statistic(CollectTime double OF collectTime UNIT s PARAVIEW
   SAYS "Seconds that the last frame took to find what there is to trace, octrees that had to be built included; these
     times are the clock's.")

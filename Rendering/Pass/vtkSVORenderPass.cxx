@@ -38,13 +38,6 @@ vtkSVORenderPass::~vtkSVORenderPass()
   }
 }
 
-int vtkSVORenderPass::GetActiveBackend() const
-{
-  const bool openGL =
-    this->Backend == BACKEND_AUTO ? this->Impl->statistics.openGL : this->Backend == BACKEND_OPENGL;
-  return openGL ? BACKEND_OPENGL : BACKEND_CPU;
-}
-
 bool vtkSVORenderPass::PrefersOpenGL(
   vtkOpenGLRenderWindow* window, bool rays, std::string& complaint) const
 {
@@ -263,8 +256,7 @@ vtkIdType vtkSVORenderPass::GetOctreeMemorySize() const
 void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "ActiveBackend: " << this->GetActiveBackend() << '\n'
-     << indent << "Controller: " << this->GetController() << '\n'
+  os << indent << "Controller: " << this->GetController() << '\n'
      << indent << "NumberOfOctreesBuilt: " << this->GetNumberOfOctreesBuilt() << '\n'
      << indent << "NumberOfOctreesInProgress: " << this->GetNumberOfOctreesInProgress() << '\n'
      << indent << "OctreeMemorySize: " << this->GetOctreeMemorySize() << " KiB\n";

@@ -69,12 +69,6 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The backend that is used: BACKEND_CPU or BACKEND_OPENGL. Where Backend is Auto: in the last
-   * frame, BACKEND_CPU before the first.
-   */
-  int GetActiveBackend() const;
-
-  /**
    * Frees the octrees that the pass keeps, and ends what is built in the background; the next frame
    * builds what it needs. During a frame: when it is through.
    */
