@@ -55,7 +55,7 @@ class TestPointsAndLines(unittest.TestCase):
             pv.Render(self.view)
             self.assertEqual(scene.statistic(self.view, "SVONumberOfInstances"), 1)
             self.assertEqual(scene.statistic(self.view, "SVOReasons"),
-                             f"Point: Left to the rasteriser: it {reason}. Casts no shadow: it {reason}.\n")
+                             f"Point: {scene.casts_nothing(reason)}\n")
 
     def test_points_as_spheres(self):
         display = self.show_point("Points")

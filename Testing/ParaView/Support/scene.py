@@ -1,7 +1,7 @@
 """The scene and the pictures that the ParaView tests share.
 
 VTKSVO_PLUGIN names the plugin's file, VTKSVO_OUTPUT a folder for pictures, VTKSVO_BASELINE that of
-the pictures to compare with.
+the pictures to compare with, VTKSVO_TEST_BACKEND the backend of views: OpenGL, or what they take by themselves.
 """
 
 import os
@@ -18,6 +18,8 @@ from pictures import differing, read
 CENTER = numpy.array([0.0, 0.0, 0.8])
 RADIUS = 0.5
 TO_LIGHT = numpy.array([3.0, -2.0, 5.0]) / numpy.linalg.norm([3.0, -2.0, 5.0])
+# VTK draws all that has triangles then, nothing of it is traced for the eye, and octrees answer for the light.
+OPENGL = os.environ.get("VTKSVO_TEST_BACKEND") == "OpenGL"
 
 
 def load_plugin(remote=False):
@@ -44,7 +46,14 @@ def make_view(size=(600, 400)):
     view.CameraViewAngle = 25.0
     if hasattr(view, "SVOShadowIntensity"):  # the plugin is loaded
         view.SVOShadowIntensity = 1.0  # black is told from dim most easily
+        choose_backend(view)
     return view
+
+
+def choose_backend(view):
+    """The one that is tested."""
+    if OPENGL:
+        view.SVOBackend, view.SVOShadowTechnique = "OpenGL", "Automatic"
 
 
 def make_parallel_view(port=None):
@@ -122,6 +131,17 @@ def statistic(proxy, name):
     """A property that is there for information only, which ParaView makes no attribute."""
     proxy.UpdatePropertyInformation()
     return proxy.GetPropertyValue(name)
+
+
+def traced(meshes, others=0):
+    """How many of a view's surfaces are traced for the eye, of meshes and of others."""
+    return others + (0 if OPENGL else meshes)
+
+
+def casts_nothing(reason):
+    """What is said of a surface that the rasteriser draws and that casts nothing, for the same reason. Where OpenGL draws
+    all of them there is no reason for that."""
+    return ("" if OPENGL else f"Left to the rasteriser: it {reason}. ") + f"Casts no shadow: it {reason}."
 
 
 def picture(view, name, **options):
