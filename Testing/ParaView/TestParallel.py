@@ -12,7 +12,7 @@ from processes import MPIRUN, file_of, program, run, run_with_server, script
 
 SCRIPT = script("several_processes.py")
 NAMES = ("full-depth", "shadow", "drawn-by-the-client", "drawn-by-the-server", "moved", "turned", "rays",
-         "automatic", "soft-light", "occlusion", "sky", "ordinary-ground", "everything", "shadow-ground", "light-kit")
+         "automatic", "buffer-opengl", "rays-opengl", "soft-light", "occlusion", "sky", "ordinary-ground", "everything", "shadow-ground", "light-kit")
 # With triangles smaller than pixels, at pixel errors 1 (the default) and 2; and where samples are filtered.
 LEVELS = {"level-of-detail": 1e-4, "coarse": 1e-3, "sky-filtered": 1e-3}
 
@@ -73,7 +73,12 @@ class TestParallel(unittest.TestCase):
         if self.orders(prefix):
             self.assertIn("casts nothing: Sphere1: Left to the rasteriser: it is translucent. "
                           "Casts no shadow: it is translucent.\n", output)
+        self.assertIn("backend: 2\n", output)
         self.assertIn("octrees built before a level changed: 1 and by the next interactive frame: 0\n", output)
+
+    def test_opengl_has_the_shadows_of_the_cpu(self):
+        for drawn, traced in ("buffer-opengl", "turned"), ("rays-opengl", "rays"):
+            self.assertLess(pictures.differing(self.expected[drawn], self.expected[traced]), 2e-3)
 
     def test_two_processes(self):
         self.check_processes(2)

@@ -80,6 +80,13 @@ picture("rays")
 view.SVOShadowTechnique = "Automatic"
 picture("automatic")
 view.SVOShadowTechnique = "Shadow Buffer"
+# Each process has a context of its own, and so have a server and its client.
+view.SVOBackend = "OpenGL"
+picture("buffer-opengl")
+view.SVOShadowTechnique = "Shadow Rays"
+picture("rays-opengl")
+print("backend:", int(scene.statistic(view, "SVOActiveBackend")))
+view.SVOBackend = "Auto"
 # Each process has the pixels of its pieces: what the filter takes from around them ends with these. Where lights are
 # sampled several processes take rays to all of them.
 view.SVOShadowTechnique = "Shadow Rays"
