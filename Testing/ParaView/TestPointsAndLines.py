@@ -80,6 +80,7 @@ class TestPointsAndLines(unittest.TestCase):
         tubes = scene.picture(self.view, "tubes-colored")
         self.assertEqual(scene.statistic(self.view, "SVOReasons"), "")
         self.assertGreater((tubes[..., :3].max(axis=2) < 10).sum(), 1000)
+        self.assertGreater((tubes.max(axis=2) - tubes.min(axis=2) > 40).sum(), 800)  # where the ground is behind them as well
         display.ColorArrayName = [None, ""]
         tubes = scene.picture(self.view, "tubes")
         self.assertEqual(scene.statistic(self.view, "SVOReasons"), "")

@@ -235,6 +235,9 @@ void ShadowReceivers::completeShader(
   }
   std::string declarations = fragmentShader.substr(0, main);
   std::string body = fragmentShader.substr(main);
+  // VTK offsets lines by the slope of a depth that tubes have not written yet: it may be anything.
+  vtkShaderProgram::Substitute(body, "vec2(dFdx(gl_FragDepth), dFdy(gl_FragDepth))",
+    "vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z))", false);
   // A normal map's bumps are no planes of the surface.
   const bool hasNormal = body.find("normalVCVSOutput") != std::string::npos &&
     fragmentShader.find("normalTex") == std::string::npos;
