@@ -375,6 +375,47 @@ class Multisampling(unittest.TestCase):
             vtk.vtkMapper.SetResolveCoincidentTopology(mode)
 
 
+class Tubes(unittest.TestCase):
+    """Lines as tubes that receive shadows, before a plane."""
+
+    def drawn(self):
+        """Depths of the picture."""
+        renderer = vtk.vtkRenderer()
+        svo = new_pass()
+        renderer.SetPass(svo)
+        plane, line, heights = vtk.vtkPlaneSource(), vtk.vtkLineSource(), vtk.vtkElevationFilter()
+        line.SetPoint1(-0.4, -0.4, 0.2)
+        line.SetPoint2(0.4, 0.3, 0.3)
+        heights.SetInputConnection(line.GetOutputPort())
+        for source in plane, heights:
+            mapper = mapper_of(source)
+            mapper.InterpolateScalarsBeforeMappingOn()
+            mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, -4.0)
+            actor = new_actor(mapper)
+            actor.GetProperty().SetLineWidth(12)
+            actor.GetProperty().RenderLinesAsTubesOn()
+            renderer.AddActor(actor)
+        light = vtk.vtkLight()
+        light.SetLightTypeToSceneLight()
+        light.SetPosition(1, 2, 5)
+        renderer.AddLight(light)
+        renderer.GetActiveCamera().Elevation(30)
+        renderer.ResetCamera()
+        window = new_window(renderer)
+        window.Render()
+        return depths(window)
+
+    def test_a_small_offset_moves_them_a_little(self):
+        """VTK's shaders take the slope of a depth that is not written yet."""
+        before = self.drawn()
+        mode = vtk.vtkMapper.GetResolveCoincidentTopology()
+        vtk.vtkMapper.SetResolveCoincidentTopologyToPolygonOffset()
+        try:
+            self.assertLess(abs(self.drawn() - before).max(), 0.01)
+        finally:
+            vtk.vtkMapper.SetResolveCoincidentTopology(mode)
+
+
 class OtherWindows(unittest.TestCase):
     """What a pass has in OpenGL it has in one window, and nobody else's goes with it."""
 
