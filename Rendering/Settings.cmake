@@ -461,7 +461,7 @@ vtksvo_statistic(LayerMemorySize memory OF tracer.layerMemory PARAVIEW
 vtksvo_statistic(ShadowMemorySize memory OF "tracer.shadowMemory + frame.receiverMemory" PARAVIEW
   SAYS "Memory in KiB of shadow buffers, with the copies for rasterised surfaces.")
 vtksvo_statistic(GPUMemory memory OF tracer.gpuMemory PARAVIEW
-  SAYS "Memory in KiB of octrees in the GPU's memory, and of the pictures from which rays to lights start there.")
+  SAYS "Memory in KiB of octrees in the GPU's memory, which the renderers of a window share, and of the pictures from which rays to lights start there.")
 vtksvo_statistic(OctreeMemorySize memory PARAVIEW
   SAYS "Memory in KiB of octrees that the view built itself.")
 vtksvo_statistic(ImageSampleDistance double OF "sampleDistance()" UNIT pixels PARAVIEW

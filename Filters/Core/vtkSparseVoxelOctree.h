@@ -7,7 +7,7 @@
  * the bytes of the octree in its field data, does not change the handle: it has bytes of its own,
  * which all handles and render passes share that open the same array.
  *
- * All coordinates are in the mesh's own coordinates (not the actor's). The octree divides a cube,
+ * All points are in the mesh's own coordinates (not the actor's). The octree divides a cube,
  * see GetBounds(), into 2^level cells along an edge, level 0 to GetNumberOfLevels(); the cells of
  * the last level are the voxels. A cell is occupied if the surface touches it.
  *

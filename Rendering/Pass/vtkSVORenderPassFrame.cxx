@@ -38,9 +38,9 @@ bool vtkSVORenderPass::CollectFrame(
   svo::PassStatistics& statistics = frame.state->statistics();
   statistics.imageReduction = this->ImageReductionFactor;
   bool disturbed = true;
-  svo::FrameWishes wishes{ this->Backend == BACKEND_AUTO, this->Backend == BACKEND_OPENGL, false,
-    impl.severalProcesses(),
-    [&](bool rays, bool volumes) { return this->MayPreferOpenGL(frame, rays, volumes); } };
+  svo::FrameWishes wishes;
+  wishes.prefersOpenGL = [&](bool rays, bool volumes)
+  { return this->MayPreferOpenGL(frame, rays, volumes); };
   // As the last frame's scene says; this one's has the last word.
   bool planes = frame.state->collected().planes;
   for (int i = 1; disturbed && i <= MostCollections; ++i)
@@ -78,6 +78,9 @@ bool vtkSVORenderPass::CollectFrame(
     store.aborted = frame.abort(i < MostCollections, heard, disturbed);
     store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
 
+    wishes.automatic = this->Backend == BACKEND_AUTO;
+    wishes.openGL = this->Backend == BACKEND_OPENGL;
+    wishes.severalProcesses = impl.severalProcesses();
     wishes.sampled = this->AmbientOcclusion || this->SkyLight ||
       (this->ShadowTechnique != SHADOW_NONE && svo::hasSoftLight(renderer));
     asked = svo::FrameSettings();

@@ -159,15 +159,15 @@ struct Slope : svo::ScalarField
   glm::dvec3 gradient(const glm::dvec3&) const override { return { 1.0, 0.4, -0.3 }; }
 };
 
-/// An octree of planes whose hull is said to be the mesh; framed: sheared and mirrored.
-void writePlanes(int level, bool framed, const fs::path& folder)
+/// An octree of planes whose hull is said to be the mesh; transformed: sheared and mirrored.
+void writePlanes(int level, bool transformed, const fs::path& folder)
 {
   svo::BuildOptions options;
   options.level = level;
   options.leafGeometry = svo::LeafGeometry::Plane;
   options.modelLow = glm::dvec3(-0.5);
   options.modelHigh = glm::dvec3(0.5);
-  if (framed)
+  if (transformed)
   {
     options.transform[0][0] = -2.0;
     options.transform[1][0] = 0.5;
@@ -179,7 +179,7 @@ void writePlanes(int level, bool framed, const fs::path& folder)
   h.pointCount = static_cast<std::uint64_t>(svofuzz::mesh()->GetNumberOfPoints());
   h.cellCount = static_cast<std::uint64_t>(svofuzz::mesh()->GetNumberOfCells());
   svofuzz::mesh()->GetBounds(h.meshBounds);
-  writeOctree(h, folder / ((framed ? "framed-" : "planes-") + std::to_string(level)));
+  writeOctree(h, folder / ((transformed ? "framed-" : "planes-") + std::to_string(level)));
 }
 
 int writeSeeds(const fs::path& folder)

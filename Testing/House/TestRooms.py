@@ -108,6 +108,9 @@ MADE = {"build", "__pycache__"}  # not the tree's own
 def check_folders(root):
     problems, looked_at = [], 0
     for folder, folders, files in os.walk(root):
+        if "CMakeCache.txt" in files:  # a build tree
+            folders.clear()
+            continue
         folders[:] = [name for name in folders if name not in MADE and not name.startswith(".")]
         looked_at += 1
         if len(files) > MOST_FILES:

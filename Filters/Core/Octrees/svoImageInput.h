@@ -22,8 +22,8 @@ struct ImageBox
 /// Why the surface of an image cannot be looked for; nullptr if it can.
 const char* unfitImage(vtkImageData* image, vtkDataArray* scalars);
 
-/// The octree's coordinates. An image with axes of its own (a direction matrix) gets an octree
-/// along these: so the surface ends where the image does. Else it is the local one.
+/// The octree's transform. An image with axes of its own (a direction matrix) gets an octree along
+/// these: so the surface ends where the image does. Else it is 1.
 glm::dmat4 transformOfImage(vtkImageData* image);
 
 /// In the octree's coordinates. Hidden cells (blanked, refined elsewhere, of another process) are

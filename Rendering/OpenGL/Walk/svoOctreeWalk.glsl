@@ -21,7 +21,7 @@ const uint svoSingle = 0x80000000u;
 const int svoMostSteps = 4096;        // of a ray in one octree
 
 // A ray through one octree, from where it enters the cube, made ready for triangles: `across`, `up`
-// and `direction` are axes of which it goes along the third axis.
+// and `direction` are axes; it goes along the third.
 struct svoRay
 {
   vec3 origin;

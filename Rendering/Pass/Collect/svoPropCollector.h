@@ -37,8 +37,8 @@ public:
   /// Fills in the surfaces of `found.prop`, without octrees. The prop can have some.
   void collect(PropSurfaces& found, const CollectProps& frame);
 
-  /// Of an actor that has moved since it was collected, and is unchanged otherwise, sets the matrices.
-  /// False if it has to be collected again: nothing has been done then.
+  /// Of an actor that has moved since it was collected, and is unchanged otherwise, sets the
+  /// matrices. False if it has to be collected again: nothing has been done then.
   static bool move(PropSurfaces& found, const CollectProps& frame);
 
   /// Forgets what no collected prop keeps any more.

@@ -393,7 +393,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   {
     this->NotMarked = settings.notMarked;
   }
-  CollectProps frame = settings;
+  CollectProps frame = static_cast<const CollectProps&>(settings);
   frame.shadows = (settings.shadows && casting) || settings.levels.frame.asksHemispheres();
   frame.lights = !result.scene.lights.empty() || settings.levels.frame.asksHemispheres();
   frame.world = world;
@@ -403,7 +403,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   const std::vector<vtkSmartPointer<vtkProp>> props = propsOf(renderer);
   const bool all = !this->Collected || !sameReason || this->Choices.values() != frame.values();
   this->Collected = true;
-  this->Choices = frame;
+  this->Choices = static_cast<const PropChoices&>(frame);
   const bool changed = this->collectProps(props, frame, all);
   if (changed)
   {

@@ -12,7 +12,7 @@ namespace svo
 /// What it hangs on, besides the settings of the frame.
 struct FrameWishes
 {
-  bool automatic = false; // OpenGL makes the picture if it is preferred, else if `openGL`
+  bool automatic = false; // OpenGL makes the picture if it is preferred; else `openGL` says so
   bool openGL = false;
   bool sampled = false; // lights with a size, or hemispheres: samples are rays
   bool severalProcesses = false;

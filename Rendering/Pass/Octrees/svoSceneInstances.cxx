@@ -160,7 +160,7 @@ bool writeInstances(std::vector<PropSurfaces>& props, Stage stage, std::vector<I
       const std::size_t many = surface.count();
       WrittenSurface now = wanted(prop, surface, stage);
       now.place = place;
-      // Another octree may have another toLocal.
+      // Another octree may have another transform.
       const bool whole = prop.fresh || surface.written.place != place || place + many > before ||
         (surface.bringsOctree && surface.written.octree != now.octree);
       Instance* const first = instances.data() + place;

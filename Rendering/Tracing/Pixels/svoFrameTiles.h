@@ -25,8 +25,8 @@ public:
   /// Indices into the depth buffer's tiles, ascending.
   const std::vector<std::uint32_t>& hits() const { return this->Hits; }
 
-  /// Calls function(tileX, tileY, scratch) for the tiles with hits; a scratch serves some of them, one
-  /// after the other.
+  /// Calls function(tileX, tileY, scratch) for the tiles with hits; a scratch serves some of them,
+  /// one after the other.
   template <class Scratch, class Function>
   void each(const ParallelFor& parallelFor, const Function& function) const
   {

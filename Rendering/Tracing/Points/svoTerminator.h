@@ -24,7 +24,7 @@ namespace svo
 /// large meshes the latter is not examined.
 inline bool isSmooth(const Instance& instance)
 {
-  constexpr std::size_t Few = 256; // triangles: few enough to be examined in every matrices
+  constexpr std::size_t Few = 256; // triangles: few enough to be examined in every frame
   constexpr double Flat = 1e-5;    // radians; rounding of normals is less
   const Attributes& attributes = instance.body->attributes;
   const Surface* surface = instance.body->octree.surface();

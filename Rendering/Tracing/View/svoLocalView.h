@@ -54,7 +54,7 @@ inline float roundUp(double x)
   return f < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
 }
 
-/// A cube of a local coordinates as a view sees it.
+/// A cube of local coordinates as a view sees it.
 struct SeenCube
 {
   double nearest = 0.0; // linear depth of the nearest corner, or of the near plane

@@ -70,8 +70,8 @@ Picture pictureOf(const svo::Frame& frame, const svo::Scene& scene, const svo::V
     picture.object[i] = static_cast<int>(frame.instance[i]);
     const double x = static_cast<double>(i % frame.width) + 0.5;
     const double y = static_cast<double>(i / frame.width) + 0.5;
-    picture.normal[i] = svo::surfacePoint(
-      matrices[frame.instance[i]], view, x, y, linearDepth(view, frame.depth[i]), frame.primitive[i])
+    picture.normal[i] = svo::surfacePoint(matrices[frame.instance[i]], view, x, y,
+      linearDepth(view, frame.depth[i]), frame.primitive[i])
                           .facet;
   }
   return picture;

@@ -24,7 +24,7 @@ def main(path):
     for (scene, triangles, situation), found in frames.items():
         if situation != next(iter(frames))[2]:
             continue
-        cells = [f"{row['firstProcessorMs']:.0f}" + (f", {row['gpuMiB']:.0f}" if row.get("gpuMiB") else "")
+        cells = [f"{row.get('firstProcessorMs', 0):.0f}" + (f", {row['gpuMiB']:.0f}" if row.get("gpuMiB") else "")
                  for row in (found[name] for name in methods if name in found)]
         print(f"| {scene} | {triangles} | " + " | ".join(cells) + " |")
 

@@ -34,7 +34,7 @@ void addLights(svotest::Stage& stage, int kind)
       break;
     case 4:
     {
-      // In the camera's frame: x to the right, y up, z towards the viewer.
+      // In the camera's coordinates: x to the right, y up, z towards the viewer.
       vtkLight* lamp = stage.addSun(1.0, 1.0, 1.0);
       lamp->SetLightTypeToCameraLight();
       break;

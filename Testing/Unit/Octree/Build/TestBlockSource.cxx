@@ -1,4 +1,4 @@
-// Octrees of voxels that are known, in frames of their own; planes of voxels against those of
+// Octrees of voxels that are known, in coordinates of their own; planes of voxels against those of
 // fields.
 #include "svoBlockSource.h"
 #include "svoIntersect.h"
