@@ -20,7 +20,6 @@
 #include <limits>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkSVORenderPass);

@@ -5,17 +5,15 @@
 #include "svoColorAlpha.h"
 #include "svoDrawnMaps.h"
 #include "svoFrameInputs.h"
+#include "svoHeldScene.h"
 #include "svoHemisphereRays.h"
 #include "svoLightCode.h"
 #include "svoLightFilter.h"
-#include "svoOctreeArena.h"
 #include "svoOctreeWalk.h"
 #include "svoRayWalk.h"
 #include "svoSampleCount.h"
 #include "svoSampleSequence.h"
 #include "svoSceneChanges.h"
-#include "svoSeenSurfaces.h"
-#include "svoShaderCasters.h"
 #include "svoShadowMask.h"
 #include "svoShadowVolumes.h"
 #include "svoSkyPicture.h"
@@ -25,10 +23,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <iomanip>
-#include <iterator>
 #include <locale>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -145,15 +141,6 @@ public:
 private:
   std::string prepare(
     const Scene& scene, const View& view, const FrameSettings& settings, bool maps);
-  std::string hold(const Scene& scene, std::size_t limit);
-  void releaseScene();
-  /// True if there are octrees that the scene has not: of earlier frames, or other renderers.
-  /// Whoever needs their room has to release() all, and ask again.
-  bool holdsOthers() const { return this->Octrees->count() > this->Asked; }
-  std::size_t bytesOfScene() const
-  {
-    return this->Octrees->bytes() + this->Casters.bytes() + this->Seen.bytes();
-  }
   void describe(const Scene& scene, const View& view, const FrameSettings& settings,
     const std::string& constants);
   void describeSamples(const Scene& scene, const View& view, const FrameSettings& settings);
@@ -164,23 +151,15 @@ private:
   FrameStatistics Statistics;
   LightCode Code;
   EyeCode Eye;
-  std::shared_ptr<OctreeArena> Octrees; // the context's, once something is asked
-  std::uint64_t Emptied = 0;            // it, when all of the scene was held
-  std::size_t Asked = 0;                // of it
-  SeenSurfaces Seen;
-  ShaderCasters Casters;
+  HeldScene Held;
   DrawnMaps Drawn;
   ShadowVolumes Volumes;
   BufferTexture Sky{ BufferTexture::Texel::Float }; // the picture's table
   std::uint64_t SkyOf = 0;                          // its version
 
-  std::uint64_t Version = 0; // of the scene whose octrees are there
-  std::size_t Limit = 0;     // that they were to keep
-  std::string WhyNot;        // they are not in OpenGL's memory; empty: they are
-
-  SceneFollower Instances;    // while something is sampled
-  FrameInputs Inputs;         // likewise
-  double UsualDistance = 0.0; // of occlusion
+  SceneFollower Instances; // while something is sampled
+  FrameInputs Inputs;      // likewise
+  UsualOcclusionDistance UsualDistance;
 };
 
 std::vector<NeededLevels> OpenGLTracer::neededLevels(
@@ -222,10 +201,6 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   }
   if (asked)
   {
-    if (!this->Octrees)
-    {
-      this->Octrees = OctreeArena::of(settings.context);
-    }
     std::string whyNot = "OpenGL shaders have no room for rays to so many lights";
     if (maps || lights <= MostLights)
     {
@@ -235,11 +210,9 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
             static_cast<int>(lights) + settings.ambientOcclusion + 3 * settings.skyLight, sampled,
             false, settings.shadowVolumes)
         : 0;
-      if (this->WhyNot.empty() && this->holdsOthers() &&
-        (!whyNot.empty() || this->bytesOfScene() + mask > settings.gpuMemoryLimit))
+      const bool fits = whyNot.empty() && this->Held.bytes() + mask <= settings.gpuMemoryLimit;
+      if (!fits && this->Held.releaseOthers())
       {
-        this->Octrees->release();
-        this->Version = 0;
         whyNot = this->prepare(scene, view, settings, maps);
       }
     }
@@ -261,8 +234,8 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
     this->Other->render(scene, view, others, parallelFor);
     return;
   }
-  const std::string constants =
-    constantsOf(this->Seen.any() || this->Casters.hasPlanes(), this->Casters.alphas().size() > 0);
+  const std::string constants = constantsOf(this->Held.seen.any() || this->Held.casters.hasPlanes(),
+    this->Held.casters.alphas().size() > 0);
   int samples = 0;
   if ((lights > 0 && !maps) || sampled > 0)
   {
@@ -271,17 +244,17 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   }
   if (settings.shadowVolumes && !maps && lights > 0)
   {
-    const std::size_t others = this->bytesOfScene() +
+    const std::size_t others = this->Held.bytes() +
       ShadowMask::bytesOf(view.width, view.height, this->Code.count(), 0, false, true);
-    this->Code.remark = this->Volumes.describe(scene, this->Casters.known(), *this->Octrees, view,
-      settings, settings.gpuMemoryLimit - std::min(others, settings.gpuMemoryLimit), parallelFor,
-      this->Code);
+    this->Code.remark = this->Volumes.describe(scene, this->Held.casters.known(),
+      this->Held.octrees(), view, settings,
+      settings.gpuMemoryLimit - std::min(others, settings.gpuMemoryLimit), parallelFor, this->Code);
   }
   if (!this->Code.volumes)
   {
     this->Volumes.release();
   }
-  this->Seen.describe(scene, view, *this->Octrees, constants, this->Eye);
+  this->Held.seen.describe(scene, view, this->Held.octrees(), constants, this->Eye);
   this->Other->releaseLayers();
   this->Nothing.width = view.width;
   this->Nothing.height = view.height;
@@ -297,8 +270,8 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Statistics.retracedLayers = this->Drawn.drawn();
   this->Drawn.widths().tell(this->Statistics);
   this->Statistics.shadowMemory = this->Drawn.mapBytes();
-  this->Statistics.gpuMemory = this->bytesOfScene() + this->Volumes.bytes() + this->Drawn.bytes();
-  this->Statistics.largestGap = this->Casters.largestGap(view);
+  this->Statistics.gpuMemory = this->Held.bytes() + this->Volumes.bytes() + this->Drawn.bytes();
+  this->Statistics.largestGap = this->Held.casters.largestGap(view);
 }
 
 /// Has all that a frame's rays meet in OpenGL's memory, or with `maps` what lights see. Why not,
@@ -306,75 +279,19 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
 std::string OpenGLTracer::prepare(
   const Scene& scene, const View& view, const FrameSettings& settings, bool maps)
 {
-  const bool known = scene.version != 0 && scene.version == this->Version &&
-    this->Limit == settings.gpuMemoryLimit && this->Emptied == this->Octrees->emptied();
-  if (!known)
+  const std::string& whyNot = this->Held.hold(scene, settings);
+  if (!whyNot.empty())
   {
-    this->WhyNot = this->hold(scene, settings.gpuMemoryLimit);
-    this->UsualDistance = usualOcclusionDistance(scene);
-    if (!this->WhyNot.empty())
-    {
-      this->releaseScene();
-    }
-    this->Version = scene.version;
-    this->Limit = settings.gpuMemoryLimit;
-    this->Emptied = this->Octrees->emptied();
+    return whyNot;
   }
-  if (this->WhyNot.empty() && !maps)
+  if (!maps)
   {
-    this->Casters.aim(view);
+    this->Held.casters.aim(view);
+    return {};
   }
-  return this->WhyNot.empty() && maps
-    ? this->Drawn.draw(scene, this->Casters.known(), *this->Octrees, this->Casters.alphas(), view,
-        settings, settings.gpuMemoryLimit - std::min(this->bytesOfScene(), settings.gpuMemoryLimit))
-    : this->WhyNot;
-}
-
-/// Has a scene's casters there, but for where the eye sees them. Why not, else empty.
-std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
-{
-  std::vector<const Octree*> octrees;
-  for (const std::size_t index : instancesOf(scene, &Instance::castShadow))
-  {
-    const Octree& octree = scene.instances[index].body->octree;
-    if (!octree.surface() && !octree.hasPlanes())
-    {
-      return "OpenGL shaders meet no octrees without triangles or planes";
-    }
-    octrees.push_back(&octree);
-  }
-  const std::vector<std::size_t> seen = instancesOf(scene, &Instance::visible);
-  for (const std::size_t index : seen)
-  {
-    const Octree& octree = scene.instances[index].body->octree;
-    if (!octree.hasPlanes())
-    {
-      return "OpenGL shaders trace nothing but planes";
-    }
-    octrees.push_back(&octree);
-  }
-  const auto idOf = [](const Octree* octree) { return octree->id(); };
-  std::set<std::uint64_t> ids;
-  std::transform(octrees.begin(), octrees.end(), std::inserter(ids, ids.end()), idOf);
-  this->Asked = ids.size();
-  for (int once = 0; once < 2; ++once)
-  {
-    const bool held = this->Octrees->hold(octrees, limit);
-    if (held && !(this->Casters.place(scene, *this->Octrees) && this->Seen.place(scene, seen)))
-    {
-      return "OpenGL has no room for so many casters";
-    }
-    if (held && this->bytesOfScene() <= limit)
-    {
-      return {};
-    }
-    if (held && !this->holdsOthers())
-    {
-      break;
-    }
-    this->Octrees->release();
-  }
-  return "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit";
+  return this->Drawn.draw(scene, this->Held.casters.known(), this->Held.octrees(),
+    this->Held.casters.alphas(), view, settings,
+    settings.gpuMemoryLimit - std::min(this->Held.bytes(), settings.gpuMemoryLimit));
 }
 
 /// Says what VTK's shaders need for a frame.
@@ -405,14 +322,14 @@ void OpenGLTracer::describe(
     std::string(svoUnfold) + svoOctreeWalk + svoColorAlpha + svoRayWalk;
   this->Code.text = Text.c_str();
   this->Code.costly = true;
-  this->Code.textures = { { "svoNodes", this->Octrees->nodes().name() },
-    { "svoLists", this->Octrees->lists().name() },
-    { "svoTriangles", this->Octrees->triangles().name() } };
+  this->Code.textures = { { "svoNodes", this->Held.octrees().nodes().name() },
+    { "svoLists", this->Held.octrees().lists().name() },
+    { "svoTriangles", this->Held.octrees().triangles().name() } };
   this->describeSamples(scene, view, settings);
   this->Code.constants = constants + constantsOf(this->Code, settings);
   sources.values.resize(4 * static_cast<std::size_t>(this->Code.count()));
   this->Code.floats.push_back(sources);
-  this->Casters.describe(view, this->Code);
+  this->Held.casters.describe(view, this->Code);
 }
 
 /// Adds what is all around, and says how many samples there are.
@@ -426,7 +343,8 @@ void OpenGLTracer::describeSamples(
     code.occlusion = code.count();
     const double distance = settings.ambientOcclusionDistance;
     code.sampled.push_back({ code.occlusion, HemisphereRays::OcclusionStream,
-      static_cast<float>(std::min(distance > 0.0 ? distance : this->UsualDistance, 1e30)) });
+      static_cast<float>(
+        std::min(distance > 0.0 ? distance : this->UsualDistance.of(scene), 1e30)) });
   }
   if (settings.skyLight)
   {
@@ -467,26 +385,13 @@ void OpenGLTracer::describeSamples(
       settings.filterLightSamples ? 1.0f : 0.0f } });
 }
 
-/// Frees what a scene has in OpenGL's memory, but for octrees of other renderers.
-void OpenGLTracer::releaseScene()
-{
-  if (this->Octrees.use_count() == 1)
-  {
-    this->Octrees->release();
-  }
-  this->Casters.release();
-  this->Seen.release();
-}
-
 void OpenGLTracer::releaseGraphicsResources()
 {
-  this->releaseScene();
-  this->Octrees.reset();
+  this->Held.release();
   this->Drawn.release();
   this->Volumes.forget();
   this->Sky.release();
   this->SkyOf = 0;
-  this->Version = 0;
   this->Eye = EyeCode();
   const std::uint64_t picture = this->Code.picture;
   this->Code = LightCode();

@@ -73,11 +73,10 @@ struct CPUTracer::Internals
   ShadedTiles Shaded;             // by tile of the eye
   std::vector<CasterBox> Casters; // by index into Scene::instances
   int Samples = 0;                // of lights, in the picture
-  std::uint64_t UsualOf = 0;      // the scene's version whose ...
-  double UsualDistance = 0.0;     // usualOcclusionDistance() this is
-  bool ViewsAreTraced = true;     // of this frame; else they were not needed
-  bool SharesBuffers = false;     // shadow buffers are traced, for all processes
-  double SharingTime = 0.0;       // s, that took
+  UsualOcclusionDistance UsualDistance;
+  bool ViewsAreTraced = true; // of this frame; else they were not needed
+  bool SharesBuffers = false; // shadow buffers are traced, for all processes
+  double SharingTime = 0.0;   // s, that took
 
   void follow(const Scene& scene, const ParallelFor& parallelFor);
   void cull(const FrameSettings& settings);
@@ -299,12 +298,7 @@ void CPUTracer::render(
   FrameSettings settings = asked;
   if (settings.ambientOcclusion && settings.ambientOcclusionDistance <= 0.0)
   {
-    if (scene.version == 0 || scene.version != self.UsualOf)
-    {
-      self.UsualDistance = usualOcclusionDistance(scene);
-      self.UsualOf = scene.version;
-    }
-    settings.ambientOcclusionDistance = self.UsualDistance;
+    settings.ambientOcclusionDistance = self.UsualDistance.of(scene);
   }
   Frame& frame = self.Picture;
   PhaseClock clock;

@@ -14,6 +14,7 @@
 #include "svoTilePatch.h"
 #include "vtkSVOTracingModule.h"
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -25,6 +26,25 @@ namespace svo
 /// The distance of ambient occlusion where users name none, world: a fifth of the diagonal of all
 /// that casts.
 VTKSVOTRACING_EXPORT double usualOcclusionDistance(const Scene& scene);
+
+/// The same, found once a scene.
+class UsualOcclusionDistance
+{
+public:
+  double of(const Scene& scene)
+  {
+    if (scene.version == 0 || scene.version != this->Version)
+    {
+      this->Distance = usualOcclusionDistance(scene);
+      this->Version = scene.version;
+    }
+    return this->Distance;
+  }
+
+private:
+  std::uint64_t Version = 0;
+  double Distance = 0.0;
+};
 
 /// The normal of a point that its hemisphere is around: on the viewer's side of its facet.
 inline glm::vec3 normalOver(const TilePatch& patch, int i)

@@ -235,6 +235,26 @@ TEST(LightFilter, IsThatOfEachPixelAlone)
     });
 }
 
+// Against figures worked out by hand: 1/32^0.375 is 0.2726, of 8 of 32 that see what is less
+// 1/16^0.375 is 0.3536, and of one of them (as if one more were in between) next to nothing is
+// even.
+TEST(LightFilter, SamplesAreSpreadEvenlyAsFarAsManySeeWhatIsLess)
+{
+  using svo::LightFilter::spreadOf;
+  constexpr float Many = 1e6f;
+  EXPECT_NEAR(spreadOf(0.5f * Many, Many, Evenness::ofLight(32)), 0.25 * 0.27263, 1e-5);
+  EXPECT_NEAR(spreadOf(0.5f * Many, Many, Evenness::allAround(32)), 0.25 * 0.27263, 1e-5);
+  for (const float share : { 0.25f, 0.75f })
+  {
+    EXPECT_NEAR(spreadOf(share * Many, Many, Evenness::ofLight(32)), 0.1875 * 0.27263, 1e-5);
+    EXPECT_NEAR(spreadOf(share * Many, Many, Evenness::allAround(32)), 0.1875 * 0.35355, 1e-5);
+  }
+  EXPECT_NEAR(spreadOf(0.01f * Many, Many, Evenness::allAround(32)), 0.0099, 1e-5);
+  EXPECT_NEAR(spreadOf(0.01f * Many, Many, Evenness::ofLight(32)), 0.0099 * 0.27263, 1e-5);
+  EXPECT_FLOAT_EQ(spreadOf(0.0f, 4.0f, Evenness::ofLight(1)), 0.09f); // a tenth, as if
+  EXPECT_FLOAT_EQ(spreadOf(4.0f, 4.0f, Evenness::ofLight(1)), 0.09f);
+}
+
 // Something small and far away closes off a thirtieth of a plain's sky: of 32 samples it has one on
 // the average, none here and three there. A pixel that keeps its own is a speck.
 TEST(LightFilter, LeavesNoSpecksWhereFewSamplesSeeWhatIsLess)
