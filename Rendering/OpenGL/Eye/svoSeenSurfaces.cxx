@@ -3,6 +3,7 @@
 #include "svoEyeWalk.h"
 #include "svoLeafError.h"
 #include "svoLeafGeometry.h"
+#include "svoLocalView.h"
 #include "svoOctreeArena.h"
 #include "svoOctreeWalk.h"
 #include "svoSurfacePoint.h"
@@ -110,6 +111,8 @@ void SeenSurfaces::describe(const Scene& scene, const View& view, const OctreeAr
     const glm::dmat4 boxToWorld = cubeToWorld(octree, instance.localToWorld);
     surface.turned = (glm::determinant(glm::dmat3(boxToWorld)) < 0.0) != view.mirrored;
     surface.colored = colorsOf(instance) != nullptr;
+    const PixelRect rect = seeOctree(octree, instance.localToWorld, view).rect;
+    surface.rows = rect.y1 - rect.y0;
     const glm::dmat3 toBox =
       matrices.toOctree.inverse * matrices.toOctree.scale * glm::transpose(turned);
     const auto error = worldLeafError(instance, LeafGeometry::Plane, octree.level());

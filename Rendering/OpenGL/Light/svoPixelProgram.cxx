@@ -3,20 +3,16 @@
 #include "svoOpenGL.h"
 #include "svoPixelMain.h"
 #include "svoProgram.h"
+#include "svoStrips.h"
 #include "svoUniforms.h"
 
 #include "vtkOpenGLState.h"
 #include "vtkTextureUnitManager.h"
 
-#include <algorithm>
-
 namespace svo
 {
 namespace
 {
-/// Rows that are asked at a time: drivers end what takes too long.
-constexpr int Rows = 128;
-
 /// Groups of the compute shader.
 unsigned int groupsOf(int pixels)
 {
@@ -118,21 +114,20 @@ void PixelProgram::Use::fill(const Layer& layer)
     glBindImageTexture(0, layer.texture, 0, GL_FALSE, layer.layer,
       layer.adds ? GL_READ_WRITE : GL_WRITE_ONLY, layer.format);
   }
-  for (int row = 0; row < layer.height; row += Rows)
-  {
-    const int rows = std::min(Rows, layer.height - row);
-    if (!this->Of.Computes)
+  eachStrip(0, layer.height,
+    [&](int row, int rows)
     {
-      this->State->vtkglViewport(0, row, layer.width, rows);
-      glDrawArrays(GL_TRIANGLES, 0, 3);
-    }
-    else
-    {
-      this->set("svoFirstRow", row);
-      glDispatchCompute(groupsOf(layer.width), groupsOf(rows), 1);
-    }
-    glFlush();
-  }
+      if (!this->Of.Computes)
+      {
+        this->State->vtkglViewport(0, row, layer.width, rows);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+      }
+      else
+      {
+        this->set("svoFirstRow", row);
+        glDispatchCompute(groupsOf(layer.width), groupsOf(rows), 1);
+      }
+    });
   if (this->Of.Computes && layer.adds)
   {
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

@@ -7,6 +7,7 @@
 #include "svoOpenGL.h"
 #include "svoProgram.h"
 #include "svoStateGuard.h"
+#include "svoStrips.h"
 #include "svoSurface.h"
 #include "svoTextures.h"
 #include "svoUnfold.h"
@@ -272,7 +273,20 @@ std::string DrawnMaps::drawParts(const std::vector<PixelRect>& parts,
         glUniform1i(glGetUniformLocation(program, "svoFirstTriangle"),
           static_cast<int>(arena.firstOf(*copy.octree)));
       }
-      glDrawArraysInstanced(GL_TRIANGLES, 0, vertices, static_cast<int>(next - first));
+      const auto draw = [&]
+      { glDrawArraysInstanced(GL_TRIANGLES, 0, vertices, static_cast<int>(next - first)); };
+      if (copy.shape != MapCopy::Planes)
+      {
+        draw();
+        continue;
+      }
+      eachStrip(part.y0, part.y1,
+        [&](int row, int rows)
+        {
+          glScissor(part.x0, row, part.x1 - part.x0, rows);
+          draw();
+        });
+      glScissor(part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0);
     }
     glFlush();
   }

@@ -3,6 +3,7 @@
 #include "svoOpenGL.h"
 #include "svoProgram.h"
 #include "svoPropPasses.h"
+#include "svoStrips.h"
 #include "svoUniforms.h"
 
 #include "vtkActor.h"
@@ -12,6 +13,7 @@
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLPolyDataMapper.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
 #include "vtkOpenGLVertexBufferObject.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -58,7 +60,14 @@ protected:
     // The box may reach beyond the far plane where what is seen in it does not.
     const bool clamped = glIsEnabled(GL_DEPTH_CLAMP) == GL_TRUE;
     glEnable(GL_DEPTH_CLAMP);
-    this->Superclass::RenderPieceDraw(renderer, actor);
+    if (this->Code->surfaces[this->Surface].rows <= RowsAtOnce)
+    {
+      this->Superclass::RenderPieceDraw(renderer, actor);
+    }
+    else
+    {
+      this->DrawStrips(renderer, actor);
+    }
     if (!clamped)
     {
       glDisable(GL_DEPTH_CLAMP);
@@ -79,6 +88,23 @@ protected:
   }
 
 private:
+  void DrawStrips(vtkRenderer* renderer, vtkActor* actor)
+  {
+    vtkOpenGLState* state =
+      static_cast<vtkOpenGLRenderWindow*>(renderer->GetVTKWindow())->GetState();
+    const vtkOpenGLState::ScopedglScissor before(state);
+    const vtkOpenGLState::ScopedglEnableDisable cut(state, GL_SCISSOR_TEST);
+    int area[4];
+    glGetIntegerv(glIsEnabled(GL_SCISSOR_TEST) ? GL_SCISSOR_BOX : GL_VIEWPORT, area);
+    state->vtkglEnable(GL_SCISSOR_TEST);
+    eachStrip(area[1], area[1] + area[3],
+      [&](int row, int rows)
+      {
+        state->vtkglScissor(area[0], row, area[2], rows);
+        this->Superclass::RenderPieceDraw(renderer, actor);
+      });
+  }
+
   const EyeCode* Code = nullptr;
   std::size_t Surface = 0;
   BorrowedTextures* Textures = nullptr;

@@ -35,6 +35,7 @@ struct EyeCode
     glm::vec3 low, high;  // its box
     bool turned;          // what is wound to the left in the box is not so in the window
     bool colored;         // the seen colour takes the place of the material's
+    int rows;             // of pixels, from its lowest to its highest
     ShaderValues values;
   };
   std::vector<Surface> surfaces;
