@@ -48,6 +48,7 @@ std::string ShadowVolumes::describe(const Scene& scene, const std::vector<Caster
   const OctreeArena& arena, const View& view, const FrameSettings& settings, std::size_t room,
   const ParallelFor& parallelFor, LightCode& code)
 {
+  this->LackRoom = false;
   if (!code.sampled.empty())
   {
     return "Lights with a size, ambient occlusion and skies are sampled by rays, and so is all "
@@ -59,7 +60,8 @@ std::string ShadowVolumes::describe(const Scene& scene, const std::vector<Caster
            "the lights find the same shadows.";
   }
   code.volumes = this->place(scene, casters, arena, view, settings, room, code.lights, parallelFor);
-  if (!code.volumes)
+  this->LackRoom = !code.volumes;
+  if (this->LackRoom)
   {
     return "Shadow volumes do not fit into OpenGL's memory, or into GPUMemoryLimit: rays to the "
            "lights find the same shadows.";

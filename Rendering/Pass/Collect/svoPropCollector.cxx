@@ -12,6 +12,7 @@
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
 #include "vtkDataSetMapper.h"
+#include "vtkGlyph3DMapper.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
@@ -269,7 +270,11 @@ void PropCollector::collectActor(
   of.traceable = !of.beyond;
   const bool round = drawsRoundShapes(mapper);
   std::vector<SurfacePart> parts;
-  if (!isGlyphMapper(mapper) && !round)
+  if (isGlyphMapper(mapper))
+  {
+    of.planes = actor == owner && copiesPlanes(vtkGlyph3DMapper::SafeDownCast(mapper));
+  }
+  else if (!round)
   {
     parts = this->partsOf(actor, found.kept);
     of.planes = actor == owner && !parts.empty() &&

@@ -1,5 +1,7 @@
 #include "svoGlyphCopies.h"
 
+#include "svoMeshOctree.h"
+
 #include "vtkBitArray.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositeDataSet.h"
@@ -394,6 +396,17 @@ void visit(vtkDataObject* input, Block block, Looking& looking)
 bool isGlyphMapper(vtkMapper* mapper)
 {
   return std::string(mapper->GetClassName()) == "vtkOpenGLGlyph3DMapper";
+}
+
+bool copiesPlanes(vtkGlyph3DMapper* mapper)
+{
+  std::vector<vtkPolyData*> copied;
+  for (vtkDataObject* source : sourcesOf(mapper))
+  {
+    const std::vector<vtkPolyData*> leaves = leavesOf(source);
+    copied.insert(copied.end(), leaves.begin(), leaves.end());
+  }
+  return !copied.empty() && std::all_of(copied.begin(), copied.end(), carriesPlanes);
 }
 
 Glyphs glyphsOf(

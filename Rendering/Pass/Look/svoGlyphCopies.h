@@ -61,6 +61,9 @@ struct Glyphs
 /// True for the class that draws copies by known rules.
 bool isGlyphMapper(vtkMapper* mapper);
 
+/// True if all that it copies are surfaces without triangles.
+bool copiesPlanes(vtkGlyph3DMapper* mapper);
+
 /// What one data set of a mapper's input places.
 struct PlacedGlyphs
 {

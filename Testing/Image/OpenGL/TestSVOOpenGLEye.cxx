@@ -7,14 +7,19 @@
 #include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkElevationFilter.h"
+#include "vtkFloatArray.h"
+#include "vtkGlyph3DMapper.h"
 #include "vtkImageData.h"
 #include "vtkImageToSVO.h"
 #include "vtkImplicitFunctionToSVO.h"
+#include "vtkIntArray.h"
 #include "vtkLookupTable.h"
 #include "vtkMapper.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkSphere.h"
@@ -75,6 +80,59 @@ vtkActor* addBall(Stage& stage)
   surface->SetMaximumLevel(7);
   vtkActor* actor = stage.add(surface, 0.3, 0.6, 0.9);
   actor->SetPosition(0.8, -0.7, 0.8);
+  return actor;
+}
+
+/// Turned, stretched, mirrored and coloured copies of a ball and of an image's ring.
+vtkActor* addCopies(Stage& stage)
+{
+  vtkNew<vtkPoints> places;
+  vtkNew<vtkFloatArray> scales, turns, heights;
+  vtkNew<vtkIntArray> kinds;
+  scales->SetName("scale");
+  scales->SetNumberOfComponents(3);
+  turns->SetName("turn");
+  turns->SetNumberOfComponents(3);
+  heights->SetName("height");
+  kinds->SetName("kind");
+  for (int i = 0; i < 12; ++i)
+  {
+    places->InsertNextPoint(0.9 * (i % 4) - 1.3, 0.9 * (i / 4) - 0.9, 0.4 + 0.07 * i);
+    scales->InsertNextTuple3(i % 5 == 1 ? -0.4 : 0.4, 0.25 + 0.02 * i, 0.35);
+    turns->InsertNextTuple3(20.0 * i, 7.0 * i, -30.0 * i);
+    heights->InsertNextValue(static_cast<float>(i));
+    kinds->InsertNextValue(i % 2);
+  }
+  vtkNew<vtkPolyData> points;
+  points->SetPoints(places);
+  points->GetPointData()->SetScalars(heights);
+  points->GetPointData()->AddArray(scales);
+  points->GetPointData()->AddArray(turns);
+  points->GetPointData()->AddArray(kinds);
+  vtkNew<vtkSphere> sphere;
+  sphere->SetRadius(0.7);
+  vtkNew<vtkImplicitFunctionToSVO> ball;
+  ball->SetImplicitFunction(sphere);
+  ball->SetModelBounds(-1.0, 1.0, -1.0, 1.0, -1.0, 1.0);
+  ball->SetMaximumLevel(7);
+  const ImageCase ring = distanceCase();
+  vtkNew<vtkImageToSVO> image;
+  image->SetInputData(ring.image);
+  image->SetValue(0, ring.value);
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(points);
+  mapper->SetSourceConnection(0, ball->GetOutputPort());
+  mapper->SetSourceConnection(1, image->GetOutputPort());
+  mapper->SourceIndexingOn();
+  mapper->SetSourceIndexArray("kind");
+  mapper->SetScaleArray("scale");
+  mapper->SetScaleModeToScaleByVectorComponents();
+  mapper->SetOrientationArray("turn");
+  mapper->SetScalarRange(0.0, 11.0);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetSpecular(0.4);
+  stage.renderer->AddActor(actor);
   return actor;
 }
 
@@ -180,6 +238,19 @@ void compareAll(Checks& checks)
     change(stage, ring);
     compare(name, stage, 2, checks);
   }
+}
+
+void compareCopies(Checks& checks)
+{
+  Stage stage;
+  stage.addGround();
+  vtkActor* copies = addCopies(stage);
+  stage.addSun(2.0, -1.5, 4.0);
+  stage.addBulb(-2.0, -1.0, 3.0)->SetIntensity(0.5);
+  stage.renderer->ResetCameraClippingRange();
+  compare("copies", stage, 1, checks);
+  copies->SetScale(0.7, -1.1, 0.9);
+  compare("copies, mirrored", stage, 1, checks);
 }
 
 /// What changes from frame to frame is another picture, as with the CPU.
@@ -303,6 +374,7 @@ int TestSVOOpenGLEye(int, char*[])
 {
   Checks checks;
   compareAll(checks);
+  compareCopies(checks);
   compareChanges(checks);
   compareElsewhere(checks);
   fallBack(checks);

@@ -258,6 +258,41 @@ void tellsWhatIsMissing(Checks& checks)
       messages.warnings[0].find("of AntiAliasing it does no more") != std::string::npos,
     "OpenGL smooths nothing, and says so: " + messages.all());
 }
+
+/// Octrees of another renderer go where they are in the way of volumes.
+void makesRoom(Checks& checks)
+{
+  Stage left(240, 120);
+  left.renderer->SetViewport(0.0, 0.0, 0.5, 1.0);
+  Stage right(left, 0.5, 0.0, 1.0, 1.0);
+  left.add(ring(0.5, -0.8, 0.0, 0.8), 0.3, 0.5, 0.9);
+  right.add(ball(0.6, 0.4, 0.0, 1.2), 0.9, 0.5, 0.2);
+  svo::TestMessages messages{ left.pass }, others{ right.pass };
+  for (Stage* stage : { &left, &right })
+  {
+    stage->addGround();
+    stage->addSun(3.0, -2.0, 4.0);
+    stage->pass->SetBackendToOpenGL();
+    stage->pass->SetShadowTechniqueToShadowVolumes();
+  }
+  const Picture expected = capture(left.window);
+  const int all = static_cast<int>(right.pass->GetGPUMemory()); // octrees of both
+  for (Stage* stage : { &left, &right })
+  {
+    stage->pass->SetGPUMemoryLimit(all - 1);
+  }
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    checks.expect(difference(expected, capture(left.window)).largest == 0, "the same picture");
+    for (const Stage* stage : { &left, &right })
+    {
+      checks.expect(stage->pass->GetNumberOfShadowVolumes() > 0, "there is room for one's volumes");
+      checks.expect(stage->pass->GetGPUMemory() < all, "they stay within the limit");
+    }
+  }
+  checks.expect(messages.warnings.empty() && others.warnings.empty(),
+    "nothing is missing: " + messages.all() + others.all());
+}
 }
 
 int TestSVOShadowVolumes(int, char*[])
@@ -357,5 +392,6 @@ int TestSVOShadowVolumes(int, char*[])
   compareThrough(checks);
   compareFarEnds(checks);
   tellsWhatIsMissing(checks);
+  makesRoom(checks);
   return checks.exitCode();
 }
