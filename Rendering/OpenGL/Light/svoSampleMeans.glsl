@@ -91,5 +91,4 @@ float svoShareAt(ivec2 pixel, int number, vec3 position, vec3 facet, vec3 normal
   }
   return svoKnownMeans[sum % 4];
 }
-#define svoLeft(number, position, facet, normal, lift, extent) \
-  svoShareAt(pixel, number, position, facet, normal, lift)
+#define svoLeft(number, position, facet, normal, lift, extent) svoShareAt(pixel, number, position, facet, normal, lift)
