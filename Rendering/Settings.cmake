@@ -382,7 +382,7 @@ vtksvo_setting(Backend choice BACKEND_AUTO
   MORE
     "Rays are measured once for each OpenGL context, in its first frame that asks for them. Software OpenGL takes the CPU, and
      so do
-     scenes in which VTK would show a contour of surfaces without triangles: of those that share
+     scenes in which VTK would show a contour of surfaces without triangles: of parts of assemblies, and of those that share
      a prop with meshes. OpenGL knows no PixelError of them: it always stops at the octree's voxels.
      `GetActiveBackend()` says what the last frame took. The rule has been tried on software OpenGL only.")
 

@@ -1,22 +1,17 @@
 // What a line of sight sees of an octree of planes (svoEyeCode.h), by the rules of
-// svoSurfacePoint.h and svoVoxelLook.cxx. svoOctreeWalk.glsl comes before it, and the constant
-// svoHasColors: whether some planes have colours.
-uniform mat4 svoViewToClip;
-uniform mat4 svoViewToBox; // of directions; the octree's cube has its middle at 0, and edges of 1
-uniform mat4 svoNormalToView;
-uniform vec4 svoCentre; // view coordinates: where lines of sight begin, 1; or their direction, 0
-uniform float svoNear;  // depth of the near plane
-uniform int svoRoot;
-uniform int svoDepths;
-uniform vec4 svoSeenLow; // svoEnds::low, and its reach
-uniform vec4 svoSeenHigh;
-uniform float svoColored;         // 1: planes have colours of their own
-uniform float svoFlat;            // 1: normals are the planes' own
+// svoSurfacePoint.h and svoVoxelLook.cxx. svoOctreeWalk.glsl and svoSeenBoxes.glsl come before it,
+// and the constant svoHasColors: whether some planes have colours.
+uniform vec4 svoCentre;           // view coordinates: where lines of sight begin, 1; or their direction, 0
+uniform float svoNear;            // depth of the near plane
 uniform float svoTurn;            // -1: VTK lights the back
-uniform int svoFirstColor;        // the texel of word 0 of svoLists
-uniform float svoDepthOffset;     // added to window depths
-uniform float svoSeenError;       // svoAbove of rays to lights
 uniform usamplerBuffer svoColors; // red, green, blue, alpha in a word, of each plane
+
+// Of the box whose line of sight is followed.
+int svoRoot;
+int svoDepths;
+int svoFirstColor;
+float svoDepthOffset;
+float svoSeenError; // svoAbove of rays to lights
 
 struct svoSeen
 {
@@ -101,15 +96,29 @@ vec3 svoFaceAt(vec3 at, vec3 way)
                                                       : vec3(0.0, 0.0, way.z > 0.0 ? -1.0 : 1.0);
 }
 
-bool svoSees(vec3 end, vec3 viewEnd, out svoSeen seen)
+bool svoSees(int box, vec3 end, vec3 viewEnd, out svoSeen seen)
 {
-  bool colored = svoHasColors && svoColored > 0.0;
+  vec4 color = svoOfBox(box, 11);
+  bool colored = svoHasColors && color.w > 0.0;
+  svoFirstColor = svoNumberIn(svoOfBox(box, 12).w, svoOfBox(box, 13).w);
+  vec4 x = svoOfBox(box, 3);
+  vec4 y = svoOfBox(box, 4);
+  vec4 z = svoOfBox(box, 5);
+  svoRoot = svoNumberIn(x.w, y.w);
+  svoDepths = int(z.w);
   vec3 viewWay = svoCentre.w > 0.0 ? viewEnd - svoCentre.xyz : svoCentre.xyz;
-  vec3 way = mat3(svoViewToBox) * viewWay;
+  vec3 way = vec3(dot(x.xyz, viewWay), dot(y.xyz, viewWay), dot(z.xyz, viewWay));
+  x = svoOfBox(box, 6);
+  y = svoOfBox(box, 7);
+  z = svoOfBox(box, 8);
+  svoDepthOffset = x.w;
+  svoSeenError = y.w;
+  mat3 normalToView = transpose(mat3(x.xyz, y.xyz, z.xyz));
   // From the near plane on, or from before the box: `end` is where floats are good.
   float back = min(2.0 / length(way), (svoNear + viewEnd.z) / viewWay.z);
   vec3 from = end + 1.5 - back * way;
-  svoEnds ends = svoEnds(svoSeenLow.xyz, svoSeenHigh.xyz, svoSeenLow.w, 0.0);
+  vec4 low = svoOfBox(box, 9);
+  svoEnds ends = svoEnds(low.xyz, svoOfBox(box, 10).xyz, low.w, 0.0);
   svoHitAt = 0.0;
   if (!svoMeetsOctree(from, way, 1.001 * back, uint(svoRoot), svoDepths, ends))
   {
@@ -119,17 +128,17 @@ bool svoSees(vec3 end, vec3 viewEnd, out svoSeen seen)
   vec3 own = cubes ? svoFaceAt(from + svoHitAt * way, way)
                    : svoNormalOf(texelFetch(svoLists, int(svoHit)).r);
   vec3 towards = -normalize(viewWay);
-  vec3 outwards = normalize(mat3(svoNormalToView) * own);
+  vec3 outwards = normalize(normalToView * own);
   float side = dot(outwards, towards) < 0.0 ? -1.0 : 1.0;
   seen.position = viewEnd + (svoHitAt - back) * viewWay;
   seen.facet = side * outwards;
   seen.normal = seen.facet;
-  seen.color = colored ? svoColorOf(svoHit) : vec3(1.0);
-  if (svoFlat <= 0.0 && !cubes)
+  seen.color = colored ? svoColorOf(svoHit) : color.rgb;
+  if (z.w <= 0.0 && !cubes)
   {
     vec3 normal = own;
     svoBlend(from + svoHitAt * way, own, colored, normal, seen.color);
-    normal = side * normalize(mat3(svoNormalToView) * normal);
+    normal = side * normalize(normalToView * normal);
     float away = min(dot(normal, towards), 0.0);
     seen.normal = normalize(normal - away * towards); // on an outline it may turn away
   }

@@ -28,8 +28,8 @@ public:
   /// Has the scene there; nothing is done if it is known to be. Why it cannot be, else empty: then
   /// the scene has nothing there.
   const std::string& hold(const Scene& scene, const FrameSettings& settings);
-  /// If there are octrees that the scene has not, of earlier frames or other renderers, frees all
-  /// of them, so that hold() has more room.
+  /// If there are octrees that the scene has not, of earlier frames or other renderers, frees them,
+  /// and its own with them: it is to hold() what it needs, which has more room then.
   bool releaseOthers();
   /// Frees what the scene has, but for octrees that others share. It is held in no context then.
   void release();

@@ -249,7 +249,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
     this->Code.remark = this->Volumes.describe(scene, this->Held.casters.known(),
       this->Held.octrees(), view, settings,
       settings.gpuMemoryLimit - std::min(others, settings.gpuMemoryLimit), parallelFor, this->Code);
-    if (this->Volumes.lackRoom() && this->Held.releaseOthers())
+    if (this->Volumes.lacksRoom() && this->Held.releaseOthers())
     {
       this->render(scene, view, settings, parallelFor);
       return;

@@ -114,7 +114,7 @@ void PixelProgram::Use::fill(const Layer& layer)
     glBindImageTexture(0, layer.texture, 0, GL_FALSE, layer.layer,
       layer.adds ? GL_READ_WRITE : GL_WRITE_ONLY, layer.format);
   }
-  eachStrip(0, layer.height,
+  eachStrip(0, layer.height, 1.0,
     [&](int row, int rows)
     {
       if (!this->Of.Computes)

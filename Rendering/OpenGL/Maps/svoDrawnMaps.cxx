@@ -280,7 +280,12 @@ std::string DrawnMaps::drawParts(const std::vector<PixelRect>& parts,
         draw();
         continue;
       }
-      eachStrip(part.y0, part.y1,
+      double share = 0.0; // their fragments ask; texels may be asked for by several
+      for (std::size_t i = first; i < next; ++i)
+      {
+        share += common(drawn[i]->rect, part).pixels() / part.pixels();
+      }
+      eachStrip(part.y0, part.y1, share,
         [&](int row, int rows)
         {
           glScissor(part.x0, row, part.x1 - part.x0, rows);

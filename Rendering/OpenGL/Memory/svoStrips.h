@@ -6,19 +6,24 @@
 #include "svoOpenGL.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace svo
 {
+/// ... as many pixels, that is, as these rows of a picture have.
 constexpr int RowsAtOnce = 128;
 
-/// draw(row, rows) for strips of so many rows at most, from `first` up to `end`; OpenGL begins each
-/// at once.
+/// draw(row, rows) for strips from row `first` up to `end`, of whole groups of 8 rows but for the
+/// last; OpenGL begins each at once. `share`: of the rows' pixels those that are asked for, one
+/// that is asked for twice as two.
 template <typename Draw>
-void eachStrip(int first, int end, const Draw& draw)
+void eachStrip(int first, int end, double share, const Draw& draw)
 {
-  for (int row = first; row < end; row += RowsAtOnce)
+  const double strips = std::max(std::ceil(share * (end - first) / RowsAtOnce), 1.0);
+  const int rows = 8 * std::max(static_cast<int>(std::ceil((end - first) / (8.0 * strips))), 1);
+  for (int row = first; row < end; row += rows)
   {
-    draw(row, std::min(RowsAtOnce, end - row));
+    draw(row, std::min(rows, end - row));
     glFlush();
   }
 }

@@ -48,7 +48,7 @@ std::string ShadowVolumes::describe(const Scene& scene, const std::vector<Caster
   const OctreeArena& arena, const View& view, const FrameSettings& settings, std::size_t room,
   const ParallelFor& parallelFor, LightCode& code)
 {
-  this->LackRoom = false;
+  this->LacksRoom = false;
   if (!code.sampled.empty())
   {
     return "Lights with a size, ambient occlusion and skies are sampled by rays, and so is all "
@@ -60,8 +60,7 @@ std::string ShadowVolumes::describe(const Scene& scene, const std::vector<Caster
            "the lights find the same shadows.";
   }
   code.volumes = this->place(scene, casters, arena, view, settings, room, code.lights, parallelFor);
-  this->LackRoom = !code.volumes;
-  if (this->LackRoom)
+  if (!code.volumes)
   {
     return "Shadow volumes do not fit into OpenGL's memory, or into GPUMemoryLimit: rays to the "
            "lights find the same shadows.";
@@ -81,8 +80,9 @@ std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
 {
   const std::vector<Volume> volumes = this->gather(scene, casters, view, settings, lights);
   // What did not fit is not made again to find that out.
-  const auto asked = std::make_tuple(scene.version, room, volumes.size());
-  if (scene.version != 0 && asked == this->TooMuch)
+  const auto asked = std::make_tuple(
+    scene.version, settings.gpuMemoryLimit, view.width, view.height, volumes.size());
+  if (scene.version != 0 && asked == this->TooMuch && room <= this->TooLittle)
   {
     this->release();
     return nullptr;
@@ -95,6 +95,8 @@ std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
   {
     this->release();
     this->TooMuch = asked;
+    this->TooLittle = room;
+    this->LacksRoom = true;
     return nullptr;
   }
   this->TooMuch = {};

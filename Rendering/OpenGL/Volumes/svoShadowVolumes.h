@@ -41,8 +41,8 @@ public:
   std::string describe(const Scene& scene, const std::vector<CasterInMemory>& casters,
     const OctreeArena& arena, const View& view, const FrameSettings& settings, std::size_t room,
     const ParallelFor& parallelFor, LightCode& code);
-  /// True if that is for want of room.
-  bool lackRoom() const { return this->LackRoom; }
+  /// True if that is for want of room, and it was tried.
+  bool lacksRoom() const { return this->LacksRoom; }
   void release();
   /// ... and what did not fit into the memory of a context that goes.
   void forget()
@@ -106,9 +106,11 @@ private:
   BufferTexture Casters{ BufferTexture::Texel::FourFloats };
   BufferTexture Senses{ BufferTexture::Texel::Word };
   std::size_t Volumes = 0, Spared = 0, ContourEdges = 0;
-  bool LackRoom = false;
-  /// Of a frame whose volumes did not fit: the scene, the room, and how many there were.
-  std::tuple<std::uint64_t, std::size_t, std::size_t> TooMuch;
+  bool LacksRoom = false;
+  /// Of a frame whose volumes did not fit: the scene, the limit, the picture, and how many there
+  /// were; and the room, which others' octrees may make less.
+  std::tuple<std::uint64_t, std::size_t, int, int, std::size_t> TooMuch;
+  std::size_t TooLittle = 0;
 };
 }
 

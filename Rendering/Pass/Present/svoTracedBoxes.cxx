@@ -8,6 +8,7 @@
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLHelper.h"
@@ -18,12 +19,14 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
+#include "vtkRenderer.h"
 #include "vtkShader.h"
 #include "vtkShaderProgram.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include <glm/vec3.hpp>
 
@@ -31,22 +34,29 @@ namespace svo
 {
 namespace
 {
-/// Draws what lies in a box, by VTK's own shaders with EyeCode in them. The input is the box, as
-/// triangles that are wound to the left outside. Of these the farther ones are drawn, each fragment
-/// of which follows its line of sight back to the eye; so the eye may be inside of the box.
-/// Colours, lights and whatever passes add are VTK's.
+/// Draws what lies in some boxes, by VTK's own shaders with EyeCode in them. The input is as many
+/// cubes, or more: cube n from (0, 0, 2 n) to (1, 1, 2 n + 1), as triangles that are wound to the
+/// left outside. Of these the farther ones are drawn, each fragment of which follows its line of
+/// sight back to the eye; so the eye may be inside of a box. Colours, lights and whatever passes
+/// add are VTK's.
 class BoxMapper : public vtkOpenGLPolyDataMapper
 {
 public:
   static BoxMapper* New();
   vtkTypeMacro(BoxMapper, vtkOpenGLPolyDataMapper);
 
-  /// What to draw until the next call: one of `code`'s surfaces, with the textures of `code`.
-  void SetSurface(const EyeCode& code, std::size_t surface, BorrowedTextures& textures)
+  /// What to draw until the next call: boxes of `code`, with its textures.
+  void SetBoxes(const EyeCode& code, std::size_t first, std::size_t end, BorrowedTextures& textures)
   {
     this->Code = &code;
-    this->Surface = surface;
+    this->First = static_cast<int>(first);
+    this->Count = static_cast<int>(end - first);
     this->Textures = &textures;
+    this->Share = 0.0;
+    for (std::size_t box = first; box < end; ++box)
+    {
+      this->Share += code.surfaces[box].share;
+    }
     if (code.constants != this->Constants)
     {
       this->Constants = code.constants;
@@ -54,19 +64,34 @@ public:
     }
   }
 
+  /// Of the picture's pixels, one of several boxes as often.
+  double GetShare() const { return this->Share; }
+
 protected:
   void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override
   {
+    vtkOpenGLState* state =
+      static_cast<vtkOpenGLRenderWindow*>(renderer->GetVTKWindow())->GetState();
+    const vtkOpenGLState::ScopedglScissor before(state);
+    const vtkOpenGLState::ScopedglEnableDisable cut(state, GL_SCISSOR_TEST);
     // The box may reach beyond the far plane where what is seen in it does not.
     const bool clamped = glIsEnabled(GL_DEPTH_CLAMP) == GL_TRUE;
     glEnable(GL_DEPTH_CLAMP);
-    if (this->Code->surfaces[this->Surface].rows <= RowsAtOnce)
+    int area[4];
+    glGetIntegerv(glIsEnabled(GL_SCISSOR_TEST) ? GL_SCISSOR_BOX : GL_VIEWPORT, area);
+    if (this->Share * area[3] <= RowsAtOnce)
     {
       this->Superclass::RenderPieceDraw(renderer, actor);
     }
     else
     {
-      this->DrawStrips(renderer, actor);
+      state->vtkglEnable(GL_SCISSOR_TEST);
+      eachStrip(area[1], area[1] + area[3], this->Share,
+        [&](int row, int rows)
+        {
+          state->vtkglScissor(area[0], row, area[2], rows);
+          this->Superclass::RenderPieceDraw(renderer, actor);
+        });
     }
     if (!clamped)
     {
@@ -82,31 +107,15 @@ protected:
   {
     this->Superclass::SetMapperShaderParameters(cells, renderer, actor);
     this->Textures->send(cells.Program);
-    const auto program = static_cast<unsigned int>(cells.Program->GetHandle());
-    sendUniforms(program, this->Code->values);
-    sendUniforms(program, this->Code->surfaces[this->Surface].values);
+    sendUniforms(static_cast<unsigned int>(cells.Program->GetHandle()), this->Code->values);
+    cells.Program->SetUniformi("svoFirstBox", this->First);
+    cells.Program->SetUniformi("svoBoxCount", this->Count);
   }
 
 private:
-  void DrawStrips(vtkRenderer* renderer, vtkActor* actor)
-  {
-    vtkOpenGLState* state =
-      static_cast<vtkOpenGLRenderWindow*>(renderer->GetVTKWindow())->GetState();
-    const vtkOpenGLState::ScopedglScissor before(state);
-    const vtkOpenGLState::ScopedglEnableDisable cut(state, GL_SCISSOR_TEST);
-    int area[4];
-    glGetIntegerv(glIsEnabled(GL_SCISSOR_TEST) ? GL_SCISSOR_BOX : GL_VIEWPORT, area);
-    state->vtkglEnable(GL_SCISSOR_TEST);
-    eachStrip(area[1], area[1] + area[3],
-      [&](int row, int rows)
-      {
-        state->vtkglScissor(area[0], row, area[2], rows);
-        this->Superclass::RenderPieceDraw(renderer, actor);
-      });
-  }
-
   const EyeCode* Code = nullptr;
-  std::size_t Surface = 0;
+  int First = 0, Count = 0;
+  double Share = 0.0;
   BorrowedTextures* Textures = nullptr;
   std::string Constants; // that the shaders were made with
 };
@@ -120,26 +129,38 @@ void BoxMapper::ReplaceShaderValues(
   const auto inVertex = [&vertex](const char* mark, const std::string& by)
   { vtkShaderProgram::Substitute(vertex, mark, by, false); };
   inVertex("//VTK::PositionVC::Dec",
-    "uniform mat4 svoBoxToView;\n"
-    "uniform mat4 svoViewToClip;\n"
+    "uniform int svoFirstBox;\n"
+    "uniform int svoBoxCount;\n"
+    "flat out int svoBoxVSOutput;\n"
     "out vec3 svoEndVSOutput;\n"
-    "out vec3 svoViewEndVSOutput;\n");
+    "out vec3 svoViewEndVSOutput;\n" +
+      std::string(this->Code->vertexText));
   inVertex("//VTK::PositionVC::Impl",
-    "  svoEndVSOutput = vertexMC.xyz;\n"
-    "  svoViewEndVSOutput = (svoBoxToView * vec4(vertexMC.xyz, 1.0)).xyz;\n"
-    "  gl_Position = svoViewToClip * vec4(svoViewEndVSOutput, 1.0);\n");
+    "  int svoCube = int(vertexMC.z + 0.5) / 2;\n"
+    "  svoBoxVSOutput = svoFirstBox + svoCube;\n"
+    "  svoEndVSOutput = vec3(0.0);\n"
+    "  svoViewEndVSOutput = vec3(0.0);\n"
+    "  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);\n" // of cubes for which there are no boxes
+    "  if (svoCube < svoBoxCount)\n"
+    "  {\n"
+    "    gl_Position = svoCorner(svoBoxVSOutput,\n"
+    "      vec3(vertexMC.xy, vertexMC.z - float(2 * svoCube)), svoEndVSOutput,\n"
+    "      svoViewEndVSOutput);\n"
+    "  }\n");
   shaders[vtkShader::Vertex]->SetSource(vertex);
 
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
   const auto inFragment = [&fragment](const char* mark, const std::string& by)
   { vtkShaderProgram::Substitute(fragment, mark, by, false); };
   inFragment("//VTK::PositionVC::Dec",
+    "flat in int svoBoxVSOutput;\n"
     "in vec3 svoEndVSOutput;\n"
     "in vec3 svoViewEndVSOutput;\n" +
       text);
   inFragment("//VTK::PositionVC::Impl",
     "  svoSeen svoSurface;\n"
-    "  bool svoFound = svoSees(svoEndVSOutput, svoViewEndVSOutput, svoSurface);\n"
+    "  bool svoFound = svoSees(svoBoxVSOutput, svoEndVSOutput, svoViewEndVSOutput,\n"
+    "    svoSurface);\n"
     "  vec4 vertexVC = vec4(svoSurface.position, 1.0);\n");
   inFragment("//VTK::Depth::Impl",
     "  if (!svoFound)\n"
@@ -157,53 +178,71 @@ void BoxMapper::ReplaceShaderValues(
   this->Superclass::ReplaceShaderValues(shaders, renderer, actor);
 }
 
-/// A box's sides, wound to the left outside; corners by x + 2 y + 4 z.
+/// A cube's sides, wound to the left outside; corners by x + 2 y + 4 z.
 constexpr vtkIdType Sides[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 },
   { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
 
 vtkSmartPointer<vtkActor> makeActor()
 {
-  vtkNew<vtkPoints> points;
-  points->SetNumberOfPoints(8);
-  vtkNew<vtkCellArray> sides;
-  for (const auto& side : Sides)
-  {
-    sides->InsertNextCell({ side[0], side[1], side[2] });
-    sides->InsertNextCell({ side[0], side[2], side[3] });
-  }
-  vtkNew<vtkPolyData> box;
-  box->SetPoints(points);
-  box->SetPolys(sides);
+  vtkNew<vtkPolyData> none;
   vtkNew<BoxMapper> mapper;
-  mapper->SetInputData(box);
+  mapper->SetInputData(none);
   mapper->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
+  actor->GetProperty()->FrontfaceCullingOn();
+  actor->SetPropertyKeys(vtkNew<vtkInformation>());
   return actor;
 }
 
-void setBox(vtkPolyData* box, const glm::vec3& low, const glm::vec3& high)
+/// Has at least so many cubes, and at most four times as many.
+void makeCubes(BoxMapper* mapper, std::size_t count)
 {
-  bool same = true;
-  for (int i = 0; i < 8; ++i)
+  const auto known = static_cast<std::size_t>(mapper->GetInput()->GetNumberOfPoints()) / 8;
+  if (known >= count && known <= 4 * count)
   {
-    const glm::dvec3 corner(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
-    double known[3];
-    box->GetPoint(i, known);
-    same = same && glm::dvec3(known[0], known[1], known[2]) == corner;
-    box->GetPoints()->SetPoint(i, corner.x, corner.y, corner.z);
+    return;
   }
-  if (!same)
+  const auto wanted = static_cast<vtkIdType>(known > 0 ? count + count / 2 : count);
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(8 * wanted);
+  vtkNew<vtkCellArray> sides;
+  sides->AllocateExact(12 * wanted, 36 * wanted);
+  for (vtkIdType first = 0; first < 8 * wanted; first += 8)
   {
-    box->GetPoints()->Modified();
+    for (int i = 0; i < 8; ++i)
+    {
+      points->SetPoint(first + i, i & 1, i >> 1 & 1, static_cast<double>((i >> 2) + first / 4));
+    }
+    for (const auto& side : Sides)
+    {
+      sides->InsertNextCell({ first + side[0], first + side[1], first + side[2] });
+      sides->InsertNextCell({ first + side[0], first + side[2], first + side[3] });
+    }
   }
+  vtkNew<vtkPolyData> cubes;
+  cubes->SetPoints(points);
+  cubes->SetPolys(sides);
+  mapper->SetInputData(cubes);
 }
 
-void setMaterial(vtkProperty* property, const Material& material, bool colored)
+/// True if one material's boxes are drawn as the other's are.
+bool looksLike(const Material& a, const Material& b, bool tinted)
+{
+  const auto values = [](const Material& m)
+  {
+    return std::make_tuple(
+      m.ambient, m.diffuse, m.specular, m.specularPower, m.lighting, m.specularColor);
+  };
+  return values(a) == values(b) &&
+    (tinted || (a.ambientColor == b.ambientColor && a.diffuseColor == b.diffuseColor));
+}
+
+void setMaterial(vtkProperty* property, const Material& material, bool tinted)
 {
   const glm::vec3 own(1.0f);
-  const glm::dvec3 ambient(colored ? own : material.ambientColor);
-  const glm::dvec3 diffuse(colored ? own : material.diffuseColor);
+  const glm::dvec3 ambient(tinted ? own : material.ambientColor);
+  const glm::dvec3 diffuse(tinted ? own : material.diffuseColor);
   const glm::dvec3 specular(material.specularColor);
   property->SetAmbientColor(&ambient.x);
   property->SetDiffuseColor(&diffuse.x);
@@ -271,7 +310,9 @@ bool TracedBoxes::accepts(const EyeCode& code)
                         "void main()\n"
                         "{\n"
                         "  svoSeen seen;\n"
-                        "  bool found = svoSees(gl_FragCoord.xyz, gl_FragCoord.xyz, seen);\n"
+                        "  vec3 end, viewEnd;\n"
+                        "  svoCorner(0, gl_FragCoord.xyz, end, viewEnd);\n"
+                        "  bool found = svoSees(0, end, viewEnd, seen);\n"
                         "  color = found ? vec4(seen.normal + seen.color, "
                         "svoDepthOf(seen.position)) : vec4(0.0);\n"
                         "}\n" } },
@@ -290,28 +331,39 @@ void TracedBoxes::update(vtkOpenGLRenderWindow* window, const EyeCode& code, con
   this->Props.clear();
   this->Textures.update(
     window, code.surfaces.empty() ? std::vector<ShaderValues::Texture>() : code.values.textures);
-  for (std::size_t i = 0; i < code.surfaces.size(); ++i)
+  const auto materialOf = [&](std::size_t box) -> const Material&
+  { return scene.instances[code.surfaces[box].instance].material; };
+  for (std::size_t first = 0, end = 0; first < code.surfaces.size(); first = end)
   {
-    if (i == this->Actors.size())
+    const EyeCode::Surface& surface = code.surfaces[first];
+    vtkProp* prop = props[surface.instance];
+    for (end = first + 1;
+         end < code.surfaces.size() && props[code.surfaces[end].instance] == prop &&
+         code.surfaces[end].tinted == surface.tinted &&
+         looksLike(materialOf(first), materialOf(end), surface.tinted);
+         ++end)
+    {
+    }
+    if (this->Props.size() == this->Actors.size())
     {
       this->Actors.push_back(makeActor());
     }
-    const EyeCode::Surface& surface = code.surfaces[i];
-    vtkActor* actor = this->Actors[i];
+    vtkActor* actor = this->Actors[this->Props.size()];
     auto* mapper = static_cast<BoxMapper*>(actor->GetMapper());
-    mapper->SetSurface(code, i, this->Textures);
-    setBox(mapper->GetInput(), surface.low, surface.high);
-    setMaterial(actor->GetProperty(), scene.instances[surface.instance].material, surface.colored);
-    actor->GetProperty()->SetFrontfaceCulling(!surface.turned);
-    actor->GetProperty()->SetBackfaceCulling(surface.turned);
-    this->Props.push_back(props[surface.instance]);
+    mapper->SetBoxes(code, first, end, this->Textures);
+    makeCubes(mapper, end - first);
+    setMaterial(actor->GetProperty(), materialOf(first), surface.tinted);
+    this->Props.push_back(prop);
   }
+  this->Actors.resize(this->Props.size());
 }
 
-/// A prop's keys, with passes that stand for its own.
-vtkSmartPointer<vtkInformation> TracedBoxes::keysOf(vtkProp* prop)
+/// Has them drawn with a prop's keys, and passes that stand for its own. The same object as ever:
+/// of an actor with another one VTK makes all buffers anew.
+void TracedBoxes::takeKeys(vtkActor* actor, vtkProp* prop)
 {
-  auto keys = vtkSmartPointer<vtkInformation>::New();
+  vtkInformation* keys = actor->GetPropertyKeys();
+  keys->Clear();
   if (vtkInformation* own = prop->GetPropertyKeys())
   {
     keys->Copy(own);
@@ -329,19 +381,26 @@ vtkSmartPointer<vtkInformation> TracedBoxes::keysOf(vtkProp* prop)
       }
       addPass(keys, *known);
     });
-  return keys;
 }
 
 void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only)
 {
+  double rows = 0.0; // of pixels, as many as are asked for and not begun
   for (std::size_t i = 0; i < this->Props.size(); ++i)
   {
     if (only && only->count(this->Props[i]) == 0)
     {
       continue;
     }
-    this->Actors[i]->SetPropertyKeys(this->keysOf(this->Props[i]));
-    this->Actors[i]->RenderOpaqueGeometry(viewport);
+    vtkActor* actor = this->Actors[i];
+    this->takeKeys(actor, this->Props[i]);
+    actor->RenderOpaqueGeometry(viewport);
+    rows += static_cast<BoxMapper*>(actor->GetMapper())->GetShare() * viewport->GetSize()[1];
+    if (rows > RowsAtOnce)
+    {
+      glFlush();
+      rows = 0.0;
+    }
   }
   this->Textures.deactivate();
 }

@@ -13,7 +13,6 @@
 #include <vector>
 
 class vtkActor;
-class vtkInformation;
 class vtkOpenGLRenderWindow;
 class vtkProp;
 class vtkViewport;
@@ -30,7 +29,7 @@ public:
   const std::string& refusal() const { return this->Refusal; }
 
   /// For a frame: code that lives until the next call or release(), its scene, and the prop of each
-  /// instance, with whose keys its box is drawn.
+  /// instance, with whose keys its box is drawn, at once with those of others of one look.
   void update(vtkOpenGLRenderWindow* window, const EyeCode& code, const Scene& scene,
     const std::vector<vtkProp*>& props);
   /// Has nothing to draw.
@@ -44,9 +43,9 @@ public:
 
 private:
   class ForwardingPass;
-  vtkSmartPointer<vtkInformation> keysOf(vtkProp* prop);
+  void takeKeys(vtkActor* actor, vtkProp* prop);
 
-  std::vector<vtkProp*> Props; // a box for each
+  std::vector<vtkProp*> Props; // of boxes that are drawn at once
   std::vector<vtkSmartPointer<vtkActor>> Actors;
   std::vector<vtkSmartPointer<ForwardingPass>> Passes; // that boxes were drawn with
   BorrowedTextures Textures;

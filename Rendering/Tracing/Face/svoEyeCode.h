@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 namespace svo
 {
 struct EyeCode
@@ -19,24 +17,29 @@ struct EyeCode
   /// frame to frame, and what never does. It may stand beside LightCode's. The text has
   ///
   ///   struct svoSeen { vec3 position, facet, normal, color; };
-  ///   bool svoSees(vec3 end, vec3 viewEnd, out svoSeen seen)
+  ///   bool svoSees(int box, vec3 end, vec3 viewEnd, out svoSeen seen)
   ///   float svoDepthOf(vec3 position)
   ///
   /// What the line of sight meets that leaves a surface's box at `end`, in the box's coordinates,
   /// and at `viewEnd`, in the view's: a position, the unit normals of its own plane and for
   /// shading, both towards the viewer, in view coordinates; a colour, 0..1. The window depth of a
-  /// position. Corners of the box go through the uniform matrices svoBoxToView and svoViewToClip.
+  /// position that svoSees() has found.
   std::string constants;
   const char* text = "";
+  /// ... and before a vertex shader's:
+  ///
+  ///   vec4 svoCorner(int box, vec3 corner, out vec3 end, out vec3 viewEnd)
+  ///
+  /// What goes through gl_Position of a corner, 0 or 1 along each axis of a box whose sides are
+  /// wound to the left, seen from outside and in the window.
+  const char* vertexText = "";
 
+  /// What is seen in a box. Boxes have numbers from 0 on.
   struct Surface
   {
     std::size_t instance; // of Scene::instances
-    glm::vec3 low, high;  // its box
-    bool turned;          // what is wound to the left in the box is not so in the window
-    bool colored;         // the seen colour takes the place of the material's
-    int rows;             // of pixels, from its lowest to its highest
-    ShaderValues values;
+    bool tinted;          // the seen colour takes the place of the material's
+    double share;         // of the picture: of its rectangle
   };
   std::vector<Surface> surfaces;
   ShaderValues values; // of all

@@ -17,6 +17,7 @@ struct PixelRect
 {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   bool empty() const { return x0 >= x1 || y0 >= y1; }
+  double pixels() const { return empty() ? 0.0 : static_cast<double>(x1 - x0) * (y1 - y0); }
   bool overlaps(const PixelRect& o) const
   {
     return x0 < o.x1 && o.x0 < x1 && y0 < o.y1 && o.y0 < y1;
@@ -34,6 +35,12 @@ inline PixelRect around(const PixelRect& a, const PixelRect& b)
     : b.empty()    ? a
                    : PixelRect{ std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1),
                     std::max(a.y1, b.y1) };
+}
+
+/// What both hold.
+inline PixelRect common(const PixelRect& a, const PixelRect& b)
+{
+  return { std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1) };
 }
 
 /// Every pixel's ray is an affine function of the pixel: at pixel centre (x, y), with x, y counted

@@ -253,6 +253,43 @@ void compareCopies(Checks& checks)
   compare("copies, mirrored", stage, 1, checks);
 }
 
+/// In a part of a window, beside another: strips of a picture are not those of the window.
+void compareViewports(Checks& checks)
+{
+  Stage left(300, 700);
+  left.renderer->SetViewport(0.0, 0.0, 0.5, 0.9);
+  Stage right(left, 0.5, 0.35, 1.0, 1.0);
+  Stage* const stages[] = { &left, &right };
+  for (Stage* stage : stages)
+  {
+    stage->addGround();
+    addRing(*stage, true);
+    stage->addSun(2.0, -1.5, 4.0);
+    stage->renderer->GetActiveCamera()->Zoom(1.5);
+    stage->pass->SetPixelError(0.0);
+    stage->pass->SetShadowTechniqueToShadowRays();
+    stage->pass->SetBackendToCPU();
+  }
+  const Picture expected = capture(left.window);
+  for (Stage* stage : stages)
+  {
+    stage->pass->SetBackendToOpenGL();
+  }
+  const Picture found = capture(left.window);
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < found.rgb.size(); i += 3)
+  {
+    other += std::abs(int(expected.rgb[i]) - int(found.rgb[i])) > 2;
+  }
+  std::cout << "viewports: " << other << " of " << found.size() << " pixels are others\n";
+  for (const Stage* stage : stages)
+  {
+    checks.expect(stage->pass->GetNumberOfTracedActors() == 1, "viewports: it is traced");
+    checks.expect(stage->pass->GetNumberOfPrimaryRays() == 0, "viewports: and not by the CPU");
+  }
+  checks.expect(other <= MostOther * found.size(), "viewports: the CPU's colours");
+}
+
 /// What changes from frame to frame is another picture, as with the CPU.
 void compareChanges(Checks& checks)
 {
@@ -375,6 +412,7 @@ int TestSVOOpenGLEye(int, char*[])
   Checks checks;
   compareAll(checks);
   compareCopies(checks);
+  compareViewports(checks);
   compareChanges(checks);
   compareElsewhere(checks);
   fallBack(checks);

@@ -276,7 +276,7 @@ void makesRoom(Checks& checks)
     stage->pass->SetShadowTechniqueToShadowVolumes();
   }
   const Picture expected = capture(left.window);
-  const int all = static_cast<int>(right.pass->GetGPUMemory()); // octrees of both
+  const int all = static_cast<int>(right.pass->GetGPUMemory()); // with octrees of both
   for (Stage* stage : { &left, &right })
   {
     stage->pass->SetGPUMemoryLimit(all - 1);
@@ -292,6 +292,22 @@ void makesRoom(Checks& checks)
   }
   checks.expect(messages.warnings.empty() && others.warnings.empty(),
     "nothing is missing: " + messages.all() + others.all());
+  for (Stage* stage : { &left, &right })
+  {
+    stage->pass->SetGPUMemoryLimit(all / 4);
+  }
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    checks.expect(differing(expected, capture(left.window)) < 10, "rays in their place");
+    checks.expect(left.pass->GetNumberOfShadowVolumes() == 0, "there is no room for one's");
+  }
+  checks.expect(messages.warnings.size() == 1 && others.warnings.size() == 1,
+    "each says so once: " + messages.all() + others.all());
+  for (Stage* stage : { &left, &right })
+  {
+    stage->pass->SetGPUMemoryLimit(all - 1);
+  }
+  checks.expect(difference(expected, capture(left.window)).largest == 0, "there is room again");
 }
 }
 
