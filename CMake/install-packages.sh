@@ -30,6 +30,7 @@ libgtest-dev|unit tests
 xvfb|a display for machines without one
 xauth|access to that display
 libgl1-mesa-dri|software OpenGL
+glslang-tools|reads shaders as the language is written, not as one driver takes it
 libembree-dev|the ray tracer that the benchmark compares with
 libopenvdb-tools|vdb_print, which has to open the OpenVDB files that we write
 python3-openvdb|so has OpenVDB's Python module
