@@ -7,6 +7,7 @@
 #include "svoWork.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace svo
@@ -83,12 +84,28 @@ std::shared_ptr<const Surface> makeSurface(const TriangleMesh& mesh,
   const glm::dvec3 origin(header.origin[0], header.origin[1], header.origin[2]);
   const double scale =
     1.0 / std::ldexp(header.voxelSize, static_cast<int>(NodeLevels * header.depthCount));
+  std::atomic<bool> whole{ true };
   forEach(parallelFor, mesh.pointCount, 16384,
     [&](std::size_t i)
     {
       const glm::dvec3& p = mesh.points[i];
-      surface->points[i] = usable(p) ? glm::vec3(1.0 + (p - origin) * scale) : glm::vec3(1.0f);
+      const bool there = usable(p);
+      surface->points[i] = there ? glm::vec3(1.0 + (p - origin) * scale) : glm::vec3(1.0f);
+      if (!there)
+      {
+        whole = false;
+      }
     });
+  if (!whole)
+  {
+    // What the octree leaves out is nothing, for who draws all triangles.
+    for (glm::uvec3& t : surface->triangles)
+    {
+      const bool there =
+        usable(mesh.points[t.x]) && usable(mesh.points[t.y]) && usable(mesh.points[t.z]);
+      t = there ? t : glm::uvec3(t.x);
+    }
+  }
   return surface;
 }
 }

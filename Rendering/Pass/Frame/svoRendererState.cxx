@@ -392,7 +392,7 @@ void RendererState::present(vtkOpenGLRenderPass* pass)
     pass);
   this->Presenter->SetSurfaces(this->Boxes.empty() ? vtkSVOPresenter::Draw()
                                                    : [this](vtkViewport* viewport)
-      { this->Boxes.draw(viewport); });
+      { this->Boxes.draw(viewport, nullptr, this->Presenter); });
   this->Presenter->SetFirst(drawsPropsFirst(this->Renderer->GetPass()));
 }
 

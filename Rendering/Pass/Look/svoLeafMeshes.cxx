@@ -9,6 +9,7 @@
 #include "vtkMapper.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
 
 #include <string>
 
@@ -48,12 +49,19 @@ vtkSmartPointer<vtkPolyData> meshOf(vtkPolyData* carrier, vtkDataArray* values)
 }
 }
 
-vtkPolyData* leafMeshOf(
-  vtkPolyData* carrier, vtkMapper* mapper, LeafMeshes& meshes, KeepAlive& kept)
+LeafMesh* leafMeshOf(vtkPolyData* carrier, vtkMapper* mapper, LeafMeshes& meshes, KeepAlive& kept)
 {
   const char* name = nameOfCellData(carrier, mapper);
   vtkDataArray* values = name ? leafValues(carrier, name) : nullptr;
-  const auto make = [&](vtkSmartPointer<vtkPolyData>& mesh) { mesh = meshOf(carrier, values); };
-  return values ? meshes.of(values, carrier->GetMTime(), kept, make) : nullptr;
+  const auto make = [&](LeafMesh& leaves)
+  {
+    leaves.mesh = meshOf(carrier, values);
+    leaves.colors = vtkSmartPointer<vtkPolyDataMapper>::New();
+    leaves.colors->vtkMapper::ShallowCopy(mapper);
+    leaves.colors->SetInputData(leaves.mesh);
+  };
+  return values
+    ? &meshes.of({ values, mapper }, { carrier->GetMTime(), mapper->GetMTime() }, kept, make)
+    : nullptr;
 }
 }

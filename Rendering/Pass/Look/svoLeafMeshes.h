@@ -7,20 +7,30 @@
 
 #include "vtkSmartPointer.h"
 
+#include <utility>
+
 class vtkDataArray;
 class vtkMapper;
 class vtkPolyData;
+class vtkPolyDataMapper;
 
 namespace svo
 {
-/// By values of leaves. Kept for as long as somebody has them: a mapper maps colours again only of
-/// a data set that is new or has changed.
-using LeafMeshes = CachedValues<vtkDataArray*, vtkSmartPointer<vtkPolyData>>;
+/// Values of leaves as cell data, in the place of the mesh's of that name, and a mapper that maps
+/// their colours as the mesh's does. (That one would take them for the mesh's own.)
+struct LeafMesh
+{
+  vtkSmartPointer<vtkPolyData> mesh;
+  vtkSmartPointer<vtkPolyDataMapper> colors;
+};
 
-/// What has the values of leaves as cell data, in the place of the mesh's of that name, where the
-/// mapper colours it by such; else nullptr.
-vtkPolyData* leafMeshOf(
-  vtkPolyData* carrier, vtkMapper* mapper, LeafMeshes& meshes, KeepAlive& kept);
+/// By values of leaves and mapper. Kept for as long as somebody has them: a mapper maps colours
+/// again only of a data set that is new or has changed.
+using LeafMeshes = CachedValues<std::pair<vtkDataArray*, vtkMapper*>, LeafMesh,
+  std::pair<vtkMTimeType, vtkMTimeType>>;
+
+/// That of a mesh which the mapper colours by values of leaves; else nullptr.
+LeafMesh* leafMeshOf(vtkPolyData* carrier, vtkMapper* mapper, LeafMeshes& meshes, KeepAlive& kept);
 }
 
 #endif

@@ -158,9 +158,10 @@ bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
   {
     return true;
   }
-  if (vtkPolyData* ofLeaves = leafMeshOf(part.mesh, mapper, leaves, kept))
+  if (const LeafMesh* ofLeaves = leafMeshOf(part.mesh, mapper, leaves, kept))
   {
-    return leafColors(ofLeaves, mapper, attributes, kept);
+    part.colors = ofLeaves->colors;
+    return leafColors(ofLeaves->mesh, ofLeaves->colors, attributes, kept);
   }
   vtkUnsignedCharArray* colors = mapper->MapScalars(part.mesh, 1.0);
   if (!colors)

@@ -34,6 +34,13 @@ namespace svo
 {
 namespace
 {
+bool hasSampleShading()
+{
+  GLint major = 0;
+  glGetIntegerv(GL_MAJOR_VERSION, &major);
+  return major >= 4;
+}
+
 /// Draws what lies in some boxes, by VTK's own shaders with EyeCode in them. The input is as many
 /// cubes, or more: cube n from (0, 0, 2 n) to (1, 1, 2 n + 1), as triangles that are wound to the
 /// left outside. Of these the farther ones are drawn, each fragment of which follows its line of
@@ -74,6 +81,13 @@ protected:
       static_cast<vtkOpenGLRenderWindow*>(renderer->GetVTKWindow())->GetState();
     const vtkOpenGLState::ScopedglScissor before(state);
     const vtkOpenGLState::ScopedglEnableDisable cut(state, GL_SCISSOR_TEST);
+    // Each sample has a line of sight of its own.
+    const bool samples = hasSampleShading() && glIsEnabled(GL_SAMPLE_SHADING) != GL_TRUE;
+    if (samples)
+    {
+      glEnable(GL_SAMPLE_SHADING);
+      glMinSampleShading(1.0f);
+    }
     // The box may reach beyond the far plane where what is seen in it does not.
     const bool clamped = glIsEnabled(GL_DEPTH_CLAMP) == GL_TRUE;
     glEnable(GL_DEPTH_CLAMP);
@@ -96,6 +110,10 @@ protected:
     if (!clamped)
     {
       glDisable(GL_DEPTH_CLAMP);
+    }
+    if (samples)
+    {
+      glDisable(GL_SAMPLE_SHADING);
     }
   }
 
@@ -163,11 +181,11 @@ void BoxMapper::ReplaceShaderValues(
     "    svoSurface);\n"
     "  vec4 vertexVC = vec4(svoSurface.position, 1.0);\n");
   inFragment("//VTK::Depth::Impl",
-    "  if (!svoFound)\n"
+    "  gl_FragDepth = svoDepthOf(svoSurface.position);\n"
+    "  if (!svoFound || gl_FragDepth > 1.0 + svoDepthOffset)\n" // as the far plane cuts it
     "  {\n"
     "    discard;\n"
-    "  }\n"
-    "  gl_FragDepth = svoDepthOf(svoSurface.position);\n");
+    "  }\n");
   inFragment("//VTK::Normal::Dec", "");
   inFragment("//VTK::Normal::Impl", "  vec3 normalVCVSOutput = svoSurface.normal;\n");
   inFragment("//VTK::Color::Impl",
@@ -360,7 +378,7 @@ void TracedBoxes::update(vtkOpenGLRenderWindow* window, const EyeCode& code, con
 
 /// Has them drawn with a prop's keys, and passes that stand for its own. The same object as ever:
 /// of an actor with another one VTK makes all buffers anew.
-void TracedBoxes::takeKeys(vtkActor* actor, vtkProp* prop)
+void TracedBoxes::takeKeys(vtkActor* actor, vtkProp* prop, vtkProp* presenter)
 {
   vtkInformation* keys = actor->GetPropertyKeys();
   keys->Clear();
@@ -369,21 +387,33 @@ void TracedBoxes::takeKeys(vtkActor* actor, vtkProp* prop)
     keys->Copy(own);
     keys->Remove(vtkOpenGLRenderPass::RenderPasses());
   }
-  eachPass(prop,
-    [&](vtkOpenGLRenderPass* pass)
+  std::vector<vtkOpenGLRenderPass*> passes;
+  const auto add = [&](vtkOpenGLRenderPass* pass)
+  {
+    if (std::find(passes.begin(), passes.end(), pass) == passes.end())
     {
-      auto known = std::find_if(this->Passes.begin(), this->Passes.end(),
-        [pass](const auto& one) { return one->Pass == pass; });
-      if (known == this->Passes.end())
-      {
-        known = this->Passes.insert(known, vtkSmartPointer<ForwardingPass>::New());
-        (*known)->Pass = pass;
-      }
-      addPass(keys, *known);
-    });
+      passes.push_back(pass);
+    }
+  };
+  eachPass(prop, add);
+  if (presenter)
+  {
+    eachPass(presenter, add);
+  }
+  for (vtkOpenGLRenderPass* pass : passes)
+  {
+    auto known = std::find_if(this->Passes.begin(), this->Passes.end(),
+      [pass](const auto& one) { return one->Pass == pass; });
+    if (known == this->Passes.end())
+    {
+      known = this->Passes.insert(known, vtkSmartPointer<ForwardingPass>::New());
+      (*known)->Pass = pass;
+    }
+    addPass(keys, *known);
+  }
 }
 
-void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only)
+void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only, vtkProp* presenter)
 {
   double rows = 0.0; // of pixels, as many as are asked for and not begun
   for (std::size_t i = 0; i < this->Props.size(); ++i)
@@ -393,7 +423,7 @@ void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only)
       continue;
     }
     vtkActor* actor = this->Actors[i];
-    this->takeKeys(actor, this->Props[i]);
+    this->takeKeys(actor, this->Props[i], presenter);
     actor->RenderOpaqueGeometry(viewport);
     rows += static_cast<BoxMapper*>(actor->GetMapper())->GetShare() * viewport->GetSize()[1];
     if (rows > RowsAtOnce)

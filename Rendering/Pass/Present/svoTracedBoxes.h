@@ -38,12 +38,13 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
   bool empty() const { return this->Props.empty(); }
-  /// With `only`, those of these props.
-  void draw(vtkViewport* viewport, const std::set<vtkProp*>* only = nullptr);
+  /// With `only`, those of these props. `presenter`: that in a frame has the passes that their
+  /// props, which are not in it, would have.
+  void draw(vtkViewport* viewport, const std::set<vtkProp*>* only, vtkProp* presenter = nullptr);
 
 private:
   class ForwardingPass;
-  void takeKeys(vtkActor* actor, vtkProp* prop);
+  void takeKeys(vtkActor* actor, vtkProp* prop, vtkProp* presenter);
 
   std::vector<vtkProp*> Props; // of boxes that are drawn at once
   std::vector<vtkSmartPointer<vtkActor>> Actors;

@@ -6,14 +6,18 @@
 
 #include "vtkActorCollection.h"
 #include "vtkCamera.h"
+#include "vtkCellArray.h"
 #include "vtkDiskSource.h"
 #include "vtkImageToSVO.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
 #include "vtkPlaneSource.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkReverseSense.h"
+#include "vtkTrivialProducer.h"
 
 #include <cmath>
 #include <cstddef>
@@ -372,6 +376,27 @@ int TestSVOShadowVolumes(int, char*[])
     stage.add(insideOut, 0.3, 0.8, 0.4);
     stage.addSun(2.0, -1.0, 4.0);
     compare("open and inside out", stage, 10, checks);
+  }
+  {
+    Stage stage;
+    stage.addGround();
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> triangles;
+    for (const double z : { std::nan(""), 0.8, 1.2 }) // the octree leaves out the first one
+    {
+      const vtkIdType first = points->InsertNextPoint(-1.0, -1.0, z);
+      points->InsertNextPoint(0.8, -0.5, 1.0);
+      points->InsertNextPoint(-0.5, 0.7, 1.0);
+      triangles->InsertNextCell({ first, first + 1, first + 2 });
+    }
+    vtkNew<vtkPolyData> mesh;
+    mesh->SetPoints(points);
+    mesh->SetPolys(triangles);
+    vtkNew<vtkTrivialProducer> source;
+    source->SetOutput(mesh);
+    stage.add(source, 0.9, 0.3, 0.2);
+    stage.addSun(2.0, -1.0, 4.0);
+    compare("a triangle that is none", stage, 10, checks);
   }
   {
     Stage stage;
