@@ -334,14 +334,20 @@ void RendererState::findLight(const vtkRenderState& drawn)
     return;
   }
   const bool same = this->Drawn.take(drawn, this->Collected);
+  // A vtkSSAOPass around selects buffers of its own with each prop, and VTK warns that they are not
+  // those that are drawn into.
+  const bool warns = vtkObject::GetGlobalWarningDisplay() != 0;
+  const bool quiet = this->Presenter->WantsNormals();
   const auto draw = [&](int slice, int behind)
   {
+    vtkObject::SetGlobalWarningDisplay(warns && !quiet);
     this->Receivers.setGathers(true, behind);
     this->Drawn.draw(this->Renderer, slice > 0);
     if (slice == 0)
     {
       this->Boxes.draw(this->Renderer, &this->Collected.receivers);
     }
+    vtkObject::SetGlobalWarningDisplay(warns);
   };
   vtkOpenGLState* state =
     vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow())->GetState();
