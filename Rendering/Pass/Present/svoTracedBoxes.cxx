@@ -81,12 +81,14 @@ protected:
       static_cast<vtkOpenGLRenderWindow*>(renderer->GetVTKWindow())->GetState();
     const vtkOpenGLState::ScopedglScissor before(state);
     const vtkOpenGLState::ScopedglEnableDisable cut(state, GL_SCISSOR_TEST);
-    // Each sample has a line of sight of its own.
+    // Each of up to four samples has a line of sight; of more some share one.
     const bool samples = hasSampleShading() && glIsEnabled(GL_SAMPLE_SHADING) != GL_TRUE;
     if (samples)
     {
+      GLint count = 0;
+      glGetIntegerv(GL_SAMPLES, &count);
       glEnable(GL_SAMPLE_SHADING);
-      glMinSampleShading(1.0f);
+      glMinSampleShading(std::min(1.0f, 4.0f / static_cast<float>(std::max(count, 1))));
     }
     // The box may reach beyond the far plane where what is seen in it does not.
     const bool clamped = glIsEnabled(GL_DEPTH_CLAMP) == GL_TRUE;
