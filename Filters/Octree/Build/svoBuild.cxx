@@ -101,9 +101,11 @@ std::shared_ptr<const Surface> makeSurface(const TriangleMesh& mesh,
     // What the octree leaves out is nothing, for who draws all triangles.
     for (glm::uvec3& t : surface->triangles)
     {
-      const bool there =
-        usable(mesh.points[t.x]) && usable(mesh.points[t.y]) && usable(mesh.points[t.z]);
-      t = there ? t : glm::uvec3(t.x);
+      const auto there = [&mesh](std::uint32_t id) { return usable(mesh.points[id]); };
+      if (!there(t.x) || !there(t.y) || !there(t.z))
+      {
+        t = glm::uvec3(there(t.x) ? t.x : there(t.y) ? t.y : t.z);
+      }
     }
   }
   return surface;

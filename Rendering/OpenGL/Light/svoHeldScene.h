@@ -108,9 +108,13 @@ inline std::string HeldScene::holdAnew(const Scene& scene, std::size_t limit)
   for (int once = 0; once < 2; ++once)
   {
     const bool held = this->Octrees->hold(octrees, limit);
-    if (held && !(this->casters.place(scene, *this->Octrees) && this->seen.place(scene, visible)))
+    if (held && !this->casters.place(scene, *this->Octrees))
     {
       return "OpenGL has no room for so many casters";
+    }
+    if (held && !this->seen.place(scene, visible))
+    {
+      return "OpenGL has no room for so many surfaces without triangles";
     }
     if (held && this->bytes() <= limit)
     {

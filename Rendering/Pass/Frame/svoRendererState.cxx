@@ -336,18 +336,24 @@ void RendererState::findLight(const vtkRenderState& drawn)
   const bool same = this->Drawn.take(drawn, this->Collected);
   // A vtkSSAOPass around selects buffers of its own with each prop, and VTK warns that they are not
   // those that are drawn into.
-  const bool warns = vtkObject::GetGlobalWarningDisplay() != 0;
-  const bool quiet = this->Presenter->WantsNormals();
+  const bool silences =
+    this->Presenter->WantsNormals() && vtkObject::GetGlobalWarningDisplay() != 0;
   const auto draw = [&](int slice, int behind)
   {
-    vtkObject::SetGlobalWarningDisplay(warns && !quiet);
+    if (silences)
+    {
+      vtkObject::GlobalWarningDisplayOff();
+    }
     this->Receivers.setGathers(true, behind);
     this->Drawn.draw(this->Renderer, slice > 0);
     if (slice == 0)
     {
       this->Boxes.draw(this->Renderer, &this->Collected.receivers);
     }
-    vtkObject::SetGlobalWarningDisplay(warns);
+    if (silences)
+    {
+      vtkObject::GlobalWarningDisplayOn();
+    }
   };
   vtkOpenGLState* state =
     vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow())->GetState();

@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include <glm/vec3.hpp>
 
@@ -34,11 +35,14 @@ namespace svo
 {
 namespace
 {
-bool hasSampleShading()
+/// Lines of sight that a pixel has, one for each sample up to four, and how many samples there are.
+std::pair<int, int> linesOfSight()
 {
-  GLint major = 0;
+  GLint major = 0, samples = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
-  return major >= 4;
+  glGetIntegerv(GL_SAMPLES, &samples);
+  samples = std::max(samples, 1);
+  return { major >= 4 ? std::min(samples, 4) : 1, samples };
 }
 
 /// Draws what lies in some boxes, by VTK's own shaders with EyeCode in them. The input is as many
@@ -81,28 +85,25 @@ protected:
       static_cast<vtkOpenGLRenderWindow*>(renderer->GetVTKWindow())->GetState();
     const vtkOpenGLState::ScopedglScissor before(state);
     const vtkOpenGLState::ScopedglEnableDisable cut(state, GL_SCISSOR_TEST);
-    // Each of up to four samples has a line of sight; of more some share one.
-    const bool samples = hasSampleShading() && glIsEnabled(GL_SAMPLE_SHADING) != GL_TRUE;
-    if (samples)
+    const auto [lines, samples] = linesOfSight();
+    if (lines > 1)
     {
-      GLint count = 0;
-      glGetIntegerv(GL_SAMPLES, &count);
       glEnable(GL_SAMPLE_SHADING);
-      glMinSampleShading(std::min(1.0f, 4.0f / static_cast<float>(std::max(count, 1))));
+      glMinSampleShading(static_cast<float>(lines) / static_cast<float>(samples));
     }
     // The box may reach beyond the far plane where what is seen in it does not.
     const bool clamped = glIsEnabled(GL_DEPTH_CLAMP) == GL_TRUE;
     glEnable(GL_DEPTH_CLAMP);
     int area[4];
     glGetIntegerv(glIsEnabled(GL_SCISSOR_TEST) ? GL_SCISSOR_BOX : GL_VIEWPORT, area);
-    if (this->Share * area[3] <= RowsAtOnce)
+    if (lines * this->Share * area[3] <= RowsAtOnce)
     {
       this->Superclass::RenderPieceDraw(renderer, actor);
     }
     else
     {
       state->vtkglEnable(GL_SCISSOR_TEST);
-      eachStrip(area[1], area[1] + area[3], this->Share,
+      eachStrip(area[1], area[1] + area[3], lines * this->Share,
         [&](int row, int rows)
         {
           state->vtkglScissor(area[0], row, area[2], rows);
@@ -113,8 +114,9 @@ protected:
     {
       glDisable(GL_DEPTH_CLAMP);
     }
-    if (samples)
+    if (lines > 1)
     {
+      glMinSampleShading(0.0f);
       glDisable(GL_SAMPLE_SHADING);
     }
   }
@@ -417,6 +419,7 @@ void TracedBoxes::takeKeys(vtkActor* actor, vtkProp* prop, vtkProp* presenter)
 
 void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only, vtkProp* presenter)
 {
+  const int lines = linesOfSight().first;
   double rows = 0.0; // of pixels, as many as are asked for and not begun
   for (std::size_t i = 0; i < this->Props.size(); ++i)
   {
@@ -427,7 +430,8 @@ void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only, vt
     vtkActor* actor = this->Actors[i];
     this->takeKeys(actor, this->Props[i], presenter);
     actor->RenderOpaqueGeometry(viewport);
-    rows += static_cast<BoxMapper*>(actor->GetMapper())->GetShare() * viewport->GetSize()[1];
+    rows +=
+      lines * static_cast<BoxMapper*>(actor->GetMapper())->GetShare() * viewport->GetSize()[1];
     if (rows > RowsAtOnce)
     {
       glFlush();

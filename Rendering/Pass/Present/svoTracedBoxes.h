@@ -29,7 +29,8 @@ public:
   const std::string& refusal() const { return this->Refusal; }
 
   /// For a frame: code that lives until the next call or release(), its scene, and the prop of each
-  /// instance, with whose keys its box is drawn, at once with those of others of one look.
+  /// instance, with whose keys its box is drawn, at once with those after it of the same prop and
+  /// look.
   void update(vtkOpenGLRenderWindow* window, const EyeCode& code, const Scene& scene,
     const std::vector<vtkProp*>& props);
   /// Has nothing to draw.

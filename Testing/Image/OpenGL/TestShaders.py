@@ -3,8 +3,8 @@
 Usage: TestShaders.py validator folder
 
 The folder has what Mesa has been given by tests that ran before with MESA_SHADER_CAPTURE_PATH=folder: our
-own shaders, and VTK's with ours in them. The validator is Khronos' glslangValidator. What has been read is
-removed. Ends with 77, skipped, if there is nothing: other drivers hand out no shaders."""
+own shaders, and VTK's with ours in them. The validator is Khronos' glslangValidator. Ends with 77, skipped,
+if there is nothing: other drivers hand out no shaders."""
 import pathlib
 import re
 import subprocess
@@ -17,7 +17,6 @@ for captured in sorted(folder.glob("*.shader_test")):
     parts = re.split(r"^\[(vertex|fragment|geometry|compute) shader\]$|^\[.*\]$", captured.read_text(errors="replace"),
                      flags=re.MULTILINE)
     shaders.update((stage, text.strip() + "\n") for stage, text in zip(parts[1::2], parts[2::2]) if stage)
-    captured.unlink()
 if not shaders:
     print("no shaders were captured: is the driver Mesa's?")
     sys.exit(77)
