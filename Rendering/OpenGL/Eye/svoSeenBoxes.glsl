@@ -6,7 +6,7 @@
 //          window depths; svoAbove of rays to lights; 1: normals are the planes' own)
 //   9, 10  svoEnds::low and reach, svoEnds::high and 1: the box is wound to the right in the window
 //   11     colour, and 1: planes have colours of their own
-//   12, 13 the box, beside (n / 4096, n % 4096): the texel of svoColors of word 0 of svoLists
+//   12, 13 the box, beside (n / 4096, n % 4096): the texel of svoColors of word 0 of svoLists, modulo 2^32
 uniform samplerBuffer svoBoxes;
 uniform mat4 svoViewToClip;
 

@@ -14,7 +14,6 @@
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -43,7 +42,7 @@ bool isTinted(const Instance& instance)
 
 /// The texels of its box.
 void addBox(const Instance& instance, const View& view, const OctreeArena& arena, bool colored,
-  std::int64_t firstColor, std::vector<glm::vec4>& texels)
+  std::uint32_t firstColor, std::vector<glm::vec4>& texels)
 {
   const Octree& octree = instance.body->octree;
   const LeafQuery query(octree, { LeafGeometry::Plane, MaximumLevel });
@@ -63,9 +62,8 @@ void addBox(const Instance& instance, const View& view, const OctreeArena& arena
   {
     addRow(toView, row, toView[3][row]);
   }
-  const double root = arena.rootOf(octree);
-  const double besideWays[] = { std::floor(root / 4096.0), std::fmod(root, 4096.0),
-    static_cast<double>(octree.depthCount()) };
+  const glm::vec2 root = inFloats(arena.rootOf(octree));
+  const double besideWays[] = { root.x, root.y, static_cast<double>(octree.depthCount()) };
   for (int row = 0; row < 3; ++row)
   {
     addRow(toBox, row, besideWays[row]);
@@ -81,10 +79,9 @@ void addBox(const Instance& instance, const View& view, const OctreeArena& arena
   add(query.high, mirrored ? 1.0 : 0.0);
   add(isTinted(instance) ? instance.material.diffuseColor : glm::vec3(1.0f), colored ? 1.0 : 0.0);
   const double voxel = 1.0 / static_cast<double>(1 << query.bits);
-  const double highColor = std::floor(static_cast<double>(firstColor) / 4096.0);
-  add(glm::max(glm::vec3(query.low - voxel), 1.0f - 0.001f) - 1.5f, highColor);
-  add(glm::min(glm::vec3(query.high + voxel), 2.0f + 0.001f) - 1.5f,
-    static_cast<double>(firstColor) - 4096.0 * highColor);
+  const glm::vec2 color = inFloats(firstColor);
+  add(glm::max(glm::vec3(query.low - voxel), 1.0f - 0.001f) - 1.5f, color.x);
+  add(glm::min(glm::vec3(query.high + voxel), 2.0f + 0.001f) - 1.5f, color.y);
 }
 }
 
@@ -159,14 +156,10 @@ void SeenSurfaces::describe(const Scene& scene, const View& view, const OctreeAr
     const Instance& instance = scene.instances[index];
     const Octree& octree = instance.body->octree;
     const PixelRect rect = seeOctree(octree, instance.localToWorld, view).rect;
-    if (rect.empty())
-    {
-      continue;
-    }
     const bool colored = colorsOf(instance) != nullptr;
-    const std::int64_t firstColor = colored
-      ? static_cast<std::int64_t>(this->Colored.at(keyOf(instance))) -
-        static_cast<std::int64_t>(arena.firstOf(octree))
+    // The difference of whole numbers of 32 bits, here and in the shader, whichever is larger.
+    const std::uint32_t firstColor = colored
+      ? static_cast<std::uint32_t>(this->Colored.at(keyOf(instance))) - arena.firstOf(octree)
       : 0;
     addBox(instance, view, arena, colored, firstColor, texels);
     code.surfaces.push_back({ index, isTinted(instance),

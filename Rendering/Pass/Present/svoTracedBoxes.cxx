@@ -423,15 +423,15 @@ void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only, vt
   double rows = 0.0; // of pixels, as many as are asked for and not begun
   for (std::size_t i = 0; i < this->Props.size(); ++i)
   {
-    if (only && only->count(this->Props[i]) == 0)
+    vtkActor* actor = this->Actors[i];
+    const double share = static_cast<BoxMapper*>(actor->GetMapper())->GetShare();
+    if (share == 0.0 || (only && only->count(this->Props[i]) == 0))
     {
       continue;
     }
-    vtkActor* actor = this->Actors[i];
     this->takeKeys(actor, this->Props[i], presenter);
     actor->RenderOpaqueGeometry(viewport);
-    rows +=
-      lines * static_cast<BoxMapper*>(actor->GetMapper())->GetShare() * viewport->GetSize()[1];
+    rows += lines * share * viewport->GetSize()[1];
     if (rows > RowsAtOnce)
     {
       glFlush();

@@ -39,7 +39,7 @@ struct EyeCode
   {
     std::size_t instance; // of Scene::instances
     bool tinted;          // the seen colour takes the place of the material's
-    double share;         // of the picture: of its rectangle
+    double share;         // of the picture: of its rectangle; 0: none of it is seen
   };
   std::vector<Surface> surfaces;
   ShaderValues values; // of all

@@ -174,6 +174,12 @@ using Change = std::function<void(Stage&, vtkActor*)>;
 void compareAll(Checks& checks)
 {
   const auto camera = [](Stage& stage) { return stage.renderer->GetActiveCamera(); };
+  const auto awayOf = [&camera](Stage& stage, vtkActor* actor)
+  {
+    const double* at = camera(stage)->GetPosition();
+    const double* middle = actor->GetCenter();
+    return std::hypot(at[0] - middle[0], at[1] - middle[1], at[2] - middle[2]);
+  };
   const std::pair<const char*, Change> changes[] = {
     { "as it is", [](Stage&, vtkActor*) {} },
     { "flat", [](Stage&, vtkActor* a) { a->GetProperty()->SetInterpolationToFlat(); } },
@@ -199,24 +205,10 @@ void compareAll(Checks& checks)
       } },
     { "cut by the near plane",
       [&](Stage& s, vtkActor* a)
-      {
-        const double far = camera(s)->GetClippingRange()[1];
-        double at[3];
-        camera(s)->GetPosition(at);
-        const double* middle = a->GetCenter();
-        const double away = std::hypot(at[0] - middle[0], at[1] - middle[1], at[2] - middle[2]);
-        camera(s)->SetClippingRange(away, far);
-      } },
+      { camera(s)->SetClippingRange(awayOf(s, a), camera(s)->GetClippingRange()[1]); } },
     { "cut by the far plane",
       [&](Stage& s, vtkActor* a)
-      {
-        const double near = camera(s)->GetClippingRange()[0];
-        double at[3];
-        camera(s)->GetPosition(at);
-        const double* middle = a->GetCenter();
-        const double away = std::hypot(at[0] - middle[0], at[1] - middle[1], at[2] - middle[2]);
-        camera(s)->SetClippingRange(near, away);
-      } },
+      { camera(s)->SetClippingRange(camera(s)->GetClippingRange()[0], awayOf(s, a)); } },
     { "from inside",
       [&](Stage& s, vtkActor* a)
       {
